@@ -6,20 +6,18 @@ from dataclasses import replace
 import numpy as np
 
 from mouse_cli._errors import NumericalError
+from mouse_cli.diagnosis.begun import again, begun
 from mouse_cli.diagnosis.cautions import cautions, misstated
 from mouse_cli.diagnosis.companions import loose
 from mouse_cli.diagnosis.extend.deck import extended
 from mouse_cli.diagnosis.gates import GATE
 from mouse_cli.diagnosis.likelihoods.measured import Measured
-from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.numerics import numerics
-from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.localise.energy_map import energy_map
 from mouse_cli.diagnosis.localise.force import locate
 from mouse_cli.diagnosis.localise.implied_law import implied_law
-from mouse_cli.diagnosis.localise.ties import ties
 from mouse_cli.diagnosis.mechanisms import Candidate, registry
 from mouse_cli.diagnosis.nameless.fit import field_of
 from mouse_cli.diagnosis.names import by_records, housed
@@ -32,7 +30,7 @@ from mouse_cli.diagnosis.verdict import Verdict, acting, certain, explanations, 
 from mouse_cli.dynamics.solver import EigenSolver
 from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, RIVAL, UNKNOWN, Choices, Diagnosis, Proposal
 from mouse_cli.model.modal_test import restricted
-from mouse_cli.model.problem import Problem, RunOptions
+from mouse_cli.model.problem import Problem
 from mouse_cli.model.result import Result
 from mouse_cli.updating import refusals
 from mouse_cli.updating.chi_square import upper_tail
@@ -70,13 +68,11 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None, choices: Choi
 
 def _by_its_modes(measured: Measured, notice: Notice, choices: Choices) -> Diagnosis:
     """The same by measured modes, or those that measured functions show, with all that was measured beside them."""
-    problem = replace(measured.problem, run=_thorough(measured.problem.run))
-    solver = EigenSolver(notice, sensors=0 if problem.test is None else problem.test.s)
-    kept = related(problem, solver)
-    model, warnings = _model(problem, solver)
+    first = begun(measured, notice)
+    measured, problem, model = first.measured, first.problem, first.model
     housed(model, choices.candidates)
     enough = 0.0 if model.places is None else ENOUGH
-    result, remarks = _update(problem, kept, notice, _guess(model), enough, solver)
+    result, remarks = _update(problem, first.kept, notice, _guess(model), enough, first.solver)
     ranking = rank(model, _known(choices), choices.causes, measured.ranked, jobs=choices.jobs, again=again)
     ranking = with_forms(informed(ranking))
     verdict, as_it_is = judge(ranking, measured.modes and _rejected(result, model, ranking), model), ranking.baseline
@@ -97,7 +93,7 @@ def _by_its_modes(measured: Measured, notice: Notice, choices: Choices) -> Diagn
         cautions=cautions(ranking, verdict, location),
         misstated=misstated(ranking) if missing else None,
         proposals=_proposals(ranking, verdict),
-        remarks=(*measured.doubts, *remarks, *measured.remarks(ranking), *warnings, *unfit, *(_coarse(deck) if deck else ())),
+        remarks=(*measured.doubts, *remarks, *measured.remarks(ranking), *first.remarks, *unfit, *(_coarse(deck) if deck else ())),
         extended=deck and measured.extended(deck, put),
         extended_result=deck and _update(deck, of_deck, notice, _values(deck, put), enough)[0],
         choices=choices,
@@ -150,16 +146,6 @@ def _by_modes(problem: Problem) -> Problem:
     return replace(problem, frf=(), test=problem.theory.beyond_default(problem.test))
 
 
-def _thorough(options: RunOptions) -> RunOptions:
-    """The options of a deck, with the true posterior mode sought to the end: the prior is used once, however few cycles it asks."""
-    usual = RunOptions()
-    same = {
-        name: getattr(usual, name)
-        for name in ("estimator", "recursion", "passes", "cycles", "extra_update", "limit_sd")
-    }
-    return replace(options, partials=max(options.partials, usual.partials), **same)
-
-
 def _known(choices: Choices) -> dict[str, Candidate] | None:
     return None if choices.candidates is None else {key: registry()[key] for key in choices.candidates}
 
@@ -193,47 +179,12 @@ def _update(
     return run(own, notice=notice, guess=guess, enough=enough, solver=solver, search=False), (message,)
 
 
-def _model(problem: Problem, solver: EigenSolver) -> tuple[Reduced, tuple[str, ...]]:
-    """The reduced model at the prior mean, corrected for its mesh, its data allowed what that leaves; and what to say of it.
-
-    Functions are of the matrices as they are, so that a model of these is not corrected.
-    """
-    model = reduced(problem, problem.prior.mean, solver)
-    bare = Model(model).point(model.z)
-    if bare is None:
-        return model, ()
-    numbers, sd = _looked_at(model, bare)
-    found = numerics(problem, problem.prior.mean, numbers, sd, corrects=not problem.frf)
-    mesh, still = found.allowed(model, bare), np.zeros(model.data.has_shape.shape)
-    model = replace(model, finer=found.finer, mesh=mesh, data=model.data.loosened(mesh[bare.modes], still))
-    return replace(model, ties=ties(model)), found.remarks
-
-
-def _looked_at(model: Reduced, bare: Point) -> tuple[np.ndarray, np.ndarray]:
-    """Numbers (n,) from 0 of the modes that were fitted or are held out, and the least sd (n,) of their ln f."""
-    least = dict(zip(bare.modes.tolist(), model.data.sd_log.tolist(), strict=True))
-    held = model.problem.hold_out
-    for test in [] if held is None else [each for each in (held.test, *held.altered) if each is not None]:
-        sd = (test.frequency_sd_hz / test.frequency_hz).tolist()
-        for number, own in zip((test.number - 1).tolist(), sd, strict=True):
-            if number < model.r and own == own:
-                least[number] = min(own, least.get(number, own))
-    return np.array(sorted(least), int), np.array([least[number] for number in sorted(least)])
-
-
-def again(problem: Problem) -> Reduced:
-    """The model that a diagnosis of `problem` searches with, made once more by another process."""
-    solver = EigenSolver(lambda text: None, sensors=0 if problem.test is None else problem.test.s)
-    related(problem, solver)
-    return _model(problem, solver)[0]
-
-
 def _coarse(deck: Problem) -> tuple[str, ...]:
     """What to say of the mesh of the extended deck."""
     sd = deck.test.frequency_sd_hz / deck.test.frequency_hz
     known = np.isfinite(sd)
     found = numerics(deck, deck.prior.mean, deck.test.number[known] - 1, sd[known])
-    return tuple(f"with the mechanism: {text}" for text in found.remarks)
+    return tuple(f"with the mechanism: {text}" for text in replace(found, finer=None).remarks)
 
 
 def _proposals(ranking: Ranking, verdict: Verdict) -> tuple[Proposal, ...]:

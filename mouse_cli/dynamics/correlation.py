@@ -5,6 +5,8 @@ import numpy as np
 LIKELY = 0.8  # a measured and a model mode farther apart than this are not one mode, such as MAC 0.3 and 5 %
 # Detuning beyond which frequencies tell no more: a MAC above 0.8 makes a pair even in a model far too stiff
 ANY_FREQUENCY = 0.6
+_DOUBLE = 1e-3  # of their frequency: modes so close are one double mode, whose shapes are any two of a plane
+_SAME_SHAPE = 1e-6  # of the largest singular value of its shapes: what sensors see of a plane less than that is nothing
 
 
 def mac(one: np.ndarray, other: np.ndarray) -> np.ndarray:
@@ -48,7 +50,32 @@ def pair(test_shapes: np.ndarray, test_hz: np.ndarray, shapes: np.ndarray, hz: n
     Shapes decide where they can, frequencies where shapes are alike. test_shapes (s, m), test_hz (m,) may hold NaN;
     shapes (s, k), hz (k,).
     """
-    return paired(distance(mac(test_shapes, shapes), test_hz, hz))
+    return paired(distance(_with_double(mac(test_shapes, shapes), test_shapes, shapes, hz), test_hz, hz))
+
+
+def _with_double(likeness: np.ndarray, test: np.ndarray, shapes: np.ndarray, hz: np.ndarray) -> np.ndarray:
+    """`likeness` (m, k), the MAC, where modes of the model are double: of each of these the squared cosine between a measured shape
+    and all that they can be together, for s points and d such modes by (s - 1) / (s - d) less unlike, as chance has it.
+
+    test (s, m) may hold NaN; shapes (s, k), hz (k,).
+    """
+    order = np.argsort(hz, kind="stable")
+    rising = hz[order]
+    close = (rising[:-1] > 0) & (np.diff(rising) <= _DOUBLE * rising[1:])
+    if not close.any():
+        return likeness
+    likeness, have = likeness.copy(), np.isfinite(test)
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], close, [0]])))
+    for first, last in edges.reshape(-1, 2):
+        own = order[first : last + 1]
+        for i in range(test.shape[1]):
+            y, A = test[have[:, i], i], shapes[have[:, i]][:, own]
+            if len(y) > A.shape[1]:
+                U, size, _ = np.linalg.svd(A, full_matrices=False)
+                along = U[:, size > _SAME_SHAPE * size[0]].T @ y
+                unlike = (1 - along @ along / max(y @ y, 1e-300)) * (len(y) - 1) / (len(y) - A.shape[1])
+                likeness[i, own] = np.maximum(likeness[i, own], 1 - unlike)
+    return likeness
 
 
 class Measured:
@@ -57,6 +84,7 @@ class Measured:
     def __init__(self, shapes: np.ndarray, hz: np.ndarray):
         have = np.isfinite(shapes)
         x = np.where(have, shapes, 0.0)
+        self._shapes = shapes
         self._x, self._size, self._have = x.T.copy(), np.square(x).sum(axis=0)[:, None], have.T.astype(float)
         self._hz, self._log = hz, np.log(hz)[:, None]
         self._plain = bool(np.isfinite(hz).all() and (self._size > 0).all())
@@ -64,11 +92,14 @@ class Measured:
     def pair(self, shapes: np.ndarray, hz: np.ndarray) -> np.ndarray:
         """As `pair`, of finite `shapes` (s, k) and hz (k,)."""
         size = self._size * (self._have @ np.square(shapes))
-        if not self._plain or not (size > 0).all() or not (hz > 0).all():
-            alike = np.divide((self._x @ shapes) ** 2, size, out=np.zeros_like(size), where=size > 0)
+        plain = self._plain and (size > 0).all() and (hz > 0).all()
+        alike = (self._x @ shapes) ** 2
+        alike = alike / size if plain else np.divide(alike, size, out=np.zeros_like(size), where=size > 0)
+        alike = _with_double(alike, self._shapes, shapes, hz)
+        if not plain:
             return paired(distance(alike, self._hz, hz))
         detuning = np.minimum(2 * np.abs(np.log(hz) - self._log), 1e3)
-        return paired(1.0 - (self._x @ shapes) ** 2 / size + detuning)
+        return paired(1.0 - alike + detuning)
 
 
 def paired(apart: np.ndarray) -> np.ndarray:

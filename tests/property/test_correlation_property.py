@@ -86,3 +86,18 @@ def test_measured_modes_kept_for_many_models_are_paired_alike(seed):
     np.testing.assert_array_equal(Measured(test, test_hz).pair(model, hz), pair(test, test_hz, model, hz))
     test_hz[seed % 3], hz[seed % 2] = np.nan, 0.0
     np.testing.assert_array_equal(Measured(test, test_hz).pair(model, hz), pair(test, test_hz, model, hz))
+
+
+@given(seeds, st.floats(0.0, np.pi))
+def test_the_partner_of_a_double_mode_does_not_depend_on_its_basis(seed, angle):
+    """Beside it another double mode is a tenth higher, and nearly as like the measured shapes as their own plane."""
+    rng = np.random.default_rng(seed)
+    plane = np.linalg.qr(rng.standard_normal((8, 2)))[0]
+    turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+    near = plane + 0.1 * np.linalg.qr(np.hstack([plane, rng.standard_normal((8, 2))]))[0][:, 2:]
+    hz, test_hz, shapes = np.array([3.0, 3.0, 3.3, 3.3]), np.array([3.001, 3.002]), np.hstack([plane @ turn, near])
+    assert set(pair(plane, test_hz, shapes, hz).tolist()) == {0, 1}
+    assert set(Measured(plane, test_hz).pair(shapes, hz).tolist()) == {0, 1}
+    missing = plane.copy()
+    missing[0, 0] = np.nan
+    assert set(pair(missing, test_hz, shapes, hz).tolist()) == {0, 1}

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from mouse_cli.diagnosis.effects.sensors import name, readings
-from mouse_cli.diagnosis.extend.renumbered import moved, moved_functions
+from mouse_cli.diagnosis.extend.renumbered import moved, moved_channels, moved_functions
 from mouse_cli.diagnosis.nameless.fit import extended as of_field
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.model.hold_out import HoldOut
@@ -22,12 +22,18 @@ def extended(problem: Problem, one: Fit) -> Problem | None:
         if recipe.extend is None:
             return None
         deck = recipe.extend(deck, recipe.values(one.c[own]))
-    deck = in_its_units(deck, len(problem.parameters))
+    return with_what_is_held_out(in_its_units(deck, len(problem.parameters)), problem)
+
+
+def with_what_is_held_out(deck: Problem, problem: Problem) -> Problem:
+    """`deck`, which was made of `problem`, with what that holds out brought to its degrees of freedom."""
     place = {label: i for i, label in enumerate(deck.structure.labels)}
     to = np.array([place[label] for label in problem.structure.labels], int)
     if problem.held_records is not None:
-        functions = tuple(moved_functions(each, to, deck.structure.n) for each in problem.held_records.frf)
-        deck = replace(deck, held_records=replace(problem.held_records, frf=functions))
+        held = problem.held_records
+        functions = tuple(moved_functions(each, to, deck.structure.n) for each in held.frf)
+        recordings = tuple(moved_channels(each, to) for each in held.recordings)
+        deck = replace(deck, held_records=replace(held, frf=functions, recordings=recordings))
     if problem.hold_out is None:
         return deck
     held = _moved(problem.hold_out, to, deck.structure.n)

@@ -5,6 +5,7 @@ modes, then by FRFs too, then by recordings too. Nothing outside of this folder 
 """
 
 from collections.abc import Callable
+from copy import copy
 from dataclasses import replace
 
 from mouse_cli.diagnosis.likelihoods.frf.compared import compared
@@ -33,6 +34,13 @@ class Measured:
         self.given = given
         self.problem, self.doubts = (given, ()) if by_records(given) else with_modes(given)
         self._by_recordings = ByRecordings()
+
+    def of(self, do: Callable[[Problem], Problem]) -> "Measured":
+        """The same data of what `do` makes of the deck."""
+        same = copy(self)
+        same.given = do(self.given)
+        same.problem = same.given if self.problem is self.given else do(self.problem)
+        return same
 
     @property
     def modes(self) -> bool:

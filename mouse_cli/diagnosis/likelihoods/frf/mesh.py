@@ -4,10 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from mouse_cli.diagnosis.extend.halves import halved
 from mouse_cli.diagnosis.likelihoods.frf.damping import damping
 from mouse_cli.diagnosis.likelihoods.frf.model import FrfModel
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
-from mouse_cli.diagnosis.likelihoods.modal.numerics import halved, refinable
+from mouse_cli.diagnosis.likelihoods.modal.numerics import refinable
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.dynamics.solver import EigenSolver

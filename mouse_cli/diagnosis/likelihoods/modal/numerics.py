@@ -5,12 +5,13 @@ the model, which is corrected to first order where it matters. What that leaves,
 must be allowed.
 """
 
-from collections.abc import Container, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from mouse_cli.diagnosis.extend.edit import Edit
+from mouse_cli.diagnosis.extend.halves import halved
 from mouse_cli.diagnosis.extend.places import every_beam, every_cable
 from mouse_cli.diagnosis.likelihoods.modal.finer import Finer, inertia
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
@@ -19,7 +20,6 @@ from mouse_cli.dynamics.solver import EigenSolver
 from mouse_cli.model.arrays import dense
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.assembly import assembly
-from mouse_cli.terms.elements._beam import AT_ENDS
 
 _SMALL, _LARGEST = 600, 20_000  # degrees of freedom of the finer model, about, up to which it is small; is solved
 _TELLING = 0.3  # of a standard deviation
@@ -27,21 +27,56 @@ _TELLING = 0.3  # of a standard deviation
 # that of cables, whose shapes are linear, with h^2, so that quarters leave as much
 _LEFT = 1 / 15
 _BESIDE = 12  # modes of the finer model beyond twice those that are looked at: bars of few elements have some of their own
+_ALLOWED, _CORRECTED = "that much is allowed for", "predictions are corrected for it to first order"
 _ALIKE, _MATCHED = 0.1, 0.5  # share of a mode that one of the finer model is of it at least; that all of these are
 
 
 @dataclass(frozen=True)
 class Numerics:
-    """moved (m,): change of ln f of the modes `numbers` (m,), from 0, on a finer mesh with masses spread; remarks where that is no
-    trifle.
+    """moved (m,): change of ln f of the modes `numbers` (m,), from 0, on a finer mesh with masses spread.
 
-    finer: what corrects the model for it, where it is none; None: nothing does.
+    sd (m,): of ln f, as measured. finer: what corrects the model for it; None: nothing does. above (m,): which it does not correct.
     """
 
     numbers: np.ndarray
     moved: np.ndarray
-    remarks: tuple[str, ...] = ()
+    sd: np.ndarray
     finer: Finer | None = None
+    above: np.ndarray | None = None
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What to say of it, where it is no trifle."""
+        if not self.telling:
+            return ()
+        worst = self._worst
+        corrected = self.finer is not None and not self.above[worst]
+        done = "predictions are corrected for it to first order" if corrected else "that much is allowed for"
+        return (
+            f"numerics: half as long elements with masses spread along them move mode {self.numbers[worst] + 1} by "
+            f"{100 * self.moved[worst]:.2g} %, {abs(self.moved[worst]) / self.sd[worst]:.1f} of its standard deviation; {done}, "
+            "a finer mesh would be better",
+        )
+
+    @property
+    def telling(self) -> bool:
+        """Whether it is no trifle."""
+        return len(self.moved) > 0 and abs(self.moved[self._worst]) >= _TELLING * self.sd[self._worst]
+
+    @property
+    def _worst(self) -> int:
+        return int(np.argmax(np.abs(self.moved) / self.sd))
+
+    def coarse(self, allowed: np.ndarray) -> str:
+        """What a mesh too coarse for the test does: of a mode its correction leaves more, `allowed` (n,), than the sd of the test;
+        nothing where it is not.
+        """
+        left = allowed[self.numbers] / self.sd
+        worst = int(np.argmax(left)) if len(left) else 0
+        if not len(left) or left[worst] <= 1:
+            return ""
+        number, by = self.numbers[worst] + 1, self.moved[worst]
+        return f"half as long elements move mode {number} by {100 * by:.2g} %, {abs(by) / self.sd[worst]:.0f} standard deviations"
 
     def allowed(self, model: Reduced, at: Point) -> np.ndarray:
         """sd of ln f (n,) by number of the mode, for a point of `model` as it is: of what the correction leaves."""
@@ -54,14 +89,9 @@ class Numerics:
         return found
 
 
-def numerics(
-    problem: Problem, theta: np.ndarray, numbers: np.ndarray, sd: np.ndarray, corrects: bool = False
-) -> Numerics:
-    """What mesh and lumping do to the modes `numbers` (m,), from 0, of `problem` at theta, beside the sd (m,) of ln f.
-
-    corrects: whether a model is made that can be corrected for it.
-    """
-    still = Numerics(numbers, np.zeros(len(numbers)))
+def numerics(problem: Problem, theta: np.ndarray, numbers: np.ndarray, sd: np.ndarray) -> Numerics:
+    """What mesh and lumping do to the modes `numbers` (m,), from 0, of `problem` at theta, beside the sd (m,) of ln f."""
+    still = Numerics(numbers, np.zeros(len(numbers)), sd)
     if not len(numbers) or not refinable(problem, _LARGEST):
         return still
     coarse = _Modes(_Mesh(problem, theta), int(numbers.max()) + 1)
@@ -74,18 +104,11 @@ def numerics(
     if loose:
         finer = _Mesh(halved(problem, loose), theta)
     moved = coarse.moved(_Modes(finer, 2 * len(coarse.eigenvalues) + _BESIDE))[numbers]
-    worst = int(np.argmax(np.abs(moved) / sd))
-    if abs(moved[worst]) < _TELLING * sd[worst]:
-        return Numerics(numbers, moved)
-    by = inertia(problem, finer.problem, theta, limit) if corrects else None
-    left = by is None or coarse.eigenvalues[numbers[worst]] >= limit
-    done = "that much is allowed for" if left else "predictions are corrected for it to first order"
-    told = (
-        f"numerics: half as long elements with masses spread along them move mode {numbers[worst] + 1} by "
-        f"{100 * moved[worst]:.2g} %, {abs(moved[worst]) / sd[worst]:.1f} of its standard deviation; {done}, "
-        "a finer mesh would be better"
-    )
-    return Numerics(numbers, moved, (told,), by)
+    found = Numerics(numbers, moved, sd)
+    if not found.telling:
+        return found
+    by = inertia(problem, finer.problem, theta, limit)
+    return replace(found, finer=by, above=coarse.eigenvalues[numbers] >= limit)
 
 
 def refinable(problem: Problem, most: int = _SMALL) -> bool:
@@ -94,25 +117,6 @@ def refinable(problem: Problem, most: int = _SMALL) -> bool:
         return False
     edit = Edit(problem)
     return bool(every_beam(edit) or every_cable(edit))
-
-
-def halved(problem: Problem, but: Container[int] = ()) -> Problem:
-    """The deck with every beam in two halves, cables in four quarters, and their masses spread along them; beams `but`, by their
-    numbers, are left whole.
-    """
-    edit = Edit(problem)
-    cables, whole = set(every_cable(edit)), set()
-    for s, i in sorted({*every_beam(edit), *cables}, reverse=True):
-        if int(edit.sets[s].ids[i]) in but:
-            whole.add(s)
-            continue
-        edit.split((s, i), 0.5)
-        for half in (i + 1, i) if (s, i) in cables else ():
-            edit.split((s, half), 0.5)
-    for s in {s for s, _ in (*every_beam(edit), *cables)} - whole:
-        if edit.sets[s].options.get("mass") in AT_ENDS:
-            edit.option(s, mass="consistent")
-    return edit.done()
 
 
 class _Mesh:
