@@ -9,7 +9,7 @@ from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.extend.places import beams_within, every_beam, split
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
-from mouse_cli.diagnosis.sites.intervals import Interval, from_end
+from mouse_cli.diagnosis.sites.intervals import Interval, from_end, widest
 from mouse_cli.diagnosis.sites.lines import Line
 from mouse_cli.diagnosis.sites.preload import runs
 from mouse_cli.diagnosis.sites.reasons import line_masses
@@ -57,7 +57,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
 
 def _partly(candidate: Candidate, run: Line, wet: LineIntegral, m: Unknown, back: bool, share: float) -> Recipe:
     """Over a part of a row, from its beginning or (`back`) from its end."""
-    covered = Unknown("covered share of the length", "1", _SHORTEST, 0.95, log=False)
+    covered = Unknown("covered share of the length", "1", _SHORTEST, widest(run), log=False)
     L = run.length
 
     def change(values: np.ndarray) -> Change:

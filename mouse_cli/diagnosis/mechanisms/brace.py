@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.extend.diagonals import with_diagonals
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.extend.matrices import of_matrices, with_entries
 from mouse_cli.diagnosis.extend.points import found
@@ -76,14 +77,12 @@ def _with_springs(problem: Problem, keys: np.ndarray, site: Site, k: float) -> P
     if of_matrices(problem):
         spring = np.array([one, one, other]), np.array([one, other, other]), np.array([1.0, -1.0, 1.0])
         return with_entries(problem, found(name, k, "N/m"), K=spring)
+    nodes = np.array(site.ids).reshape(-1, 2)
+    if direction == ALONG:
+        return with_diagonals(problem, nodes, name, np.full(len(nodes), k))
     edit = Edit(problem)
-    nodes = [[edit.index(number) for number in two] for two in zip(site.ids[::2], site.ids[1::2], strict=True)]
-    along, springs = "TX" if direction == ALONG else DIRECTIONS[direction], []
-    for two in nodes:
-        x = edit.coordinates[two[1]] - edit.coordinates[two[0]]
-        options = {"axes": [x.tolist(), np.eye(3)[np.argmin(np.abs(x))].tolist()]} if direction == ALONG else {}
-        springs += edit.add("spring", [two], {along: k}, options)
-    edit.bind(name, springs, (along,), unit="N/m")
+    own = edit.add("spring", [[edit.index(int(n)) for n in nodes[0]]], {DIRECTIONS[direction]: k})
+    edit.bind(name, own, (DIRECTIONS[direction],), unit="N/m")
     return edit.done()
 
 

@@ -1,6 +1,5 @@
 """A spring from one place of the structure to the ground, in one direction or in all alike."""
 
-from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -12,8 +11,7 @@ from mouse_cli.diagnosis.extend.points import with_spring
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import lowest, total_mass
 from mouse_cli.diagnosis.mechanisms import Candidate
-from mouse_cli.diagnosis.sites.points import Points, all_motions, directions, sized
-from mouse_cli.model.diagnosis import Site
+from mouse_cli.diagnosis.sites.points import Points, directions, in_all_directions, sized
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.problem import Problem
 
@@ -26,7 +24,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     scale = lowest(model) * total_mass(model)
     k = Unknown("stiffness", "N/m", 1e-3 * scale, 1e3 * scale)
     change = lambda sizes, B: Change(K=sizes[0] * B.T @ B)
-    one, alike = directions(model), list(_alike(model))
+    one, alike = directions(model), in_all_directions(model)
     share = np.log([1 - _ALIKE, _ALIKE] if alike else [1.0, 1.0])
     found = zip(share.tolist(), (one, alike), (with_spring, _with_springs), strict=True)
     return [
@@ -34,20 +32,6 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
         for own, points, extend in found
         for each in sized(candidate, points, k, _STARTS, change, extend)
     ]
-
-
-def _alike(model: Reduced) -> Iterator[Points]:
-    """Places that move along more than one axis, with all their translations."""
-    kept = set() if model.motion is None else set(model.problem.mesh.directions)
-    for point in all_motions(model) if len(kept & {0, 1, 2}) > 1 else ():
-        dofs = tuple(d for d in point.dofs if d in kept)
-
-        def site(values: np.ndarray, point: Points = point) -> Site:
-            here = point.site(values)
-            return replace(here, text=f"{here.text}, all directions alike")
-
-        if len(dofs) > 1:
-            yield replace(point, site=site, dofs=dofs)
 
 
 def _with_springs(problem: Problem, point: Points, at: np.ndarray, k: float) -> Problem:

@@ -37,7 +37,9 @@ def cost(one: End) -> float:
 
 
 def _alike(one: End, other: End) -> bool:
-    """Whether both are at one place and predict the same, as two nodes through the thickness of a plate do."""
+    """Whether both are at one place and predict the same by as many sizes, as two nodes through the thickness of a plate do."""
+    if one.model.t != other.model.t:  # more sizes always misfit less, and are weighed against fewer by evidence
+        return False
     reach = SAME_SITE * span(one.model.base)
     near = all(gap(a, b) <= reach for a, b in zip(one.sites, other.sites, strict=True))
     return near and bool(np.sum((one.point.residual - other.point.residual) ** 2) < _TOLD * (1 + 1e-2 * one.misfit))

@@ -1,16 +1,17 @@
 """A part of a line of bars between two places, neither of which need be an end of it."""
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Unknown, steps
-from mouse_cli.diagnosis.sites.lines import Line
+from mouse_cli.diagnosis.sites.lines import Line, elements
 from mouse_cli.diagnosis.sites.stretches import covered
 from mouse_cli.model.diagnosis import Site
 
-_NARROWEST, _WIDEST = 0.1, 0.95  # of the line: what is narrower acts at a point, what is wider on all of it
+# Of the line: what is narrower acts at a point; what is wider on one that is all of the structure, on all of it
+_NARROWEST, _WIDEST = 0.1, 0.95
+_WHOLE = 1 - 1e-6  # share that is said to be all of it
 _WIDTHS, _PLACES = 2, 4  # to begin from
 
 
@@ -21,10 +22,12 @@ class Interval:
     """
 
     line: Line
-    unknowns: ClassVar[tuple[Unknown, Unknown]] = (
-        Unknown("covered share of the length", "1", _NARROWEST, _WIDEST, log=False),
-        Unknown("share before it of what is not covered", "1", 0.0, 1.0, log=False),
-    )
+
+    @property
+    def unknowns(self) -> tuple[Unknown, Unknown]:
+        """Both, with their ranges."""
+        covered = Unknown("covered share of the length", "1", _NARROWEST, widest(self.line), log=False)
+        return covered, Unknown("share before it of what is not covered", "1", 0.0, 1.0, log=False)
 
     @property
     def grid(self) -> tuple[np.ndarray, np.ndarray]:
@@ -47,7 +50,19 @@ class Interval:
         first, last = self.ends(share, before)
         (a, b), L = self.line.bars.ids[self.line.members[[0, -1]]], self.line.length
         where = f"{first / L:.2f} to {last / L:.2f} of the length from the end at element {a} towards element {b}"
+        where = _whole(self.line) if share > _WHOLE else where
         return _between(self.line, first, last, where + more)
+
+
+def _whole(line: Line) -> str:
+    """All of a line in words."""
+    return elements(tuple(np.unique(line.bars.ids[line.members]).tolist()))
+
+
+def widest(line: Line) -> float:
+    """Share of a line that may be covered: all of one of several."""
+    own, every = (np.unique(ids) for ids in (line.bars.ids[line.members], line.bars.ids))
+    return 1.0 if len(own) < len(every) else _WIDEST
 
 
 def from_end(line: Line, share: float, back: bool, more: str = "") -> Site:
@@ -55,6 +70,7 @@ def from_end(line: Line, share: float, back: bool, more: str = "") -> Site:
     a, b = line.bars.ids[line.members[[-1, 0] if back else [0, -1]]]
     first = (1 - share) * line.length if back else 0.0
     where = f"{share:.2f} of the length from the end at element {a} towards element {b}"
+    where = _whole(line) if share > _WHOLE else where
     return _between(line, first, first + share * line.length, where + more)
 
 

@@ -3,16 +3,40 @@
 import numpy as np
 
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.sites.members import upward
 from mouse_cli.diagnosis.sites.pairs import ALONG, Pairs, apart, strained
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.mesh import Mesh
 
 MOST = 20  # panels that are fitted
+_LEVEL = 1e-3  # of the height of the structure, within which a floor is level
 _FLAT = 1e-3  # of the length of a diagonal: how far two may pass one another
 
 
 def crossed(model: Reduced, found: Pairs) -> np.ndarray:
-    """Pairs of `found` (x, 2) that are the two diagonals of one panel, those first of which one is strained most."""
+    """Pairs of `found` (x, 2) that are the two diagonals of one panel, the MOST first of which one is strained most."""
+    own, rank = every(model, found).tolist(), np.empty(len(found), int)
+    rank[strained(model, found)] = np.arange(len(found))
+    return np.array(sorted(own, key=lambda two: (min(rank[two]), two)), int).reshape(-1, 2)[:MOST]
+
+
+def level(model: Reduced, found: Pairs) -> dict[float, np.ndarray]:
+    """Diagonals of all panels (x, 2) of each floor that lies level, by its height."""
+    two = every(model, found)
+    if not len(two):
+        return {}
+    mesh = model.problem.mesh
+    up = upward(mesh)
+    heights = mesh.coordinates[found.keys[two, :2], up].reshape(len(two), -1)
+    flat = np.ptp(heights, axis=1) <= _LEVEL * np.ptp(mesh.coordinates[:, up])
+    floors: dict[float, list[int]] = {}
+    for i in np.flatnonzero(flat).tolist():
+        floors.setdefault(round(float(heights[i, 0]), 3), []).append(i)
+    return {height: two[own] for height, own in sorted(floors.items())}
+
+
+def every(model: Reduced, found: Pairs) -> np.ndarray:
+    """Pairs of `found` (x, 2) that are the two diagonals of one panel."""
     if model.motion is None or not len(found) or (found.keys[:, 2] != ALONG).any():
         return np.zeros((0, 2), int)
     mesh = model.problem.mesh
@@ -25,10 +49,7 @@ def crossed(model: Reduced, found: Pairs) -> np.ndarray:
             others = (number.get(frozenset((c, d))) for d in between[n + 1 :])
             own |= {(min(i, j), max(i, j)) for j in others if j is not None}
     two = np.array(sorted(own), int).reshape(-1, 2)
-    own = two[_cross(mesh.coordinates[found.keys[two, :2]])].tolist()
-    rank = np.empty(len(found), int)
-    rank[strained(model, found)] = np.arange(len(found))
-    return np.array(sorted(own, key=lambda two: (min(rank[two]), two)), int).reshape(-1, 2)[:MOST]
+    return two[_cross(mesh.coordinates[found.keys[two, :2]])]
 
 
 def panel(mesh: Mesh, keys: np.ndarray) -> Site:

@@ -31,7 +31,7 @@ def slab(frame: Frame, rng: np.random.Generator, sound: dict) -> tuple[dict, dic
     for i, j in fields:
         a, b, c, d = (at[xs[i + p], ys[j + q]] for p, q in ((0, 0), (1, 1), (1, 0), (0, 1)))
         struts += [[a, b, _SLAB], [c, d, _SLAB]]
-    return {"struts": struts}, {"groups": (), "outside": True, "truth": "stiff slab", "tolerated": ("brace",)}
+    return {"struts": struts}, {"groups": ("brace",), "truth": "stiff slab"}
 
 
 def wall(frame: Frame, rng: np.random.Generator, sound: dict) -> tuple[dict, dict]:
