@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import PLACE, Change, Recipe, Softening, Unknown, product
+from mouse_cli.diagnosis.effects.change import PLACE, Change, Recipe, Softening, Unknown
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.extend.places import element_at, hinge
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
@@ -53,6 +53,7 @@ def places(
 ) -> list[Recipe]:
     """A recipe for each of the lines of bars `chosen`: what a hinge of `sizes` does at a share of a bar, does(bar, share, values).
 
+    starts (g,) or (g, t): sizes to begin from, at every place.
     extend(problem, bar, share, values): the deck with that in it.
     """
     found = []
@@ -64,7 +65,7 @@ def places(
         site = lambda values, line=line: line.site(values[-1])
         extended = lambda problem, values, line=line: extend(problem, *line.at(values[-1]), values[:-1])
         prior = float(np.log(line.length / total))
-        grid = product(*starts.T, at) if starts.ndim > 1 else product(starts, at)
+        grid = np.hstack([np.repeat(starts.reshape(len(starts), -1), len(at), axis=0), np.tile(at, len(starts))[:, None]])
         recipe = Recipe(candidate, (*sizes, where), change, grid, site, log_prior=prior, extend=extended)
         found.append(replace(recipe, jumps={len(sizes): line.inner}))
     return found

@@ -11,7 +11,8 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.bars import Bars
 from mouse_cli.diagnosis.sites.intervals import Interval, from_end
-from mouse_cli.diagnosis.sites.lines import Line, elements
+from mouse_cli.diagnosis.sites.lines import elements
+from mouse_cli.diagnosis.sites.stretches import bends_both_ways
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.elements import _beam as beam
@@ -37,7 +38,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
         for (some, planes), one in zip(parts, share, strict=True)
     ]
     ended = [(line, (int(bars.plane[line.members[0]]),)) for line in found]
-    ended += [(line, (0, 1)) for line in found if not bars.plane[line.members[0]] and _bends_both_ways(line)]
+    ended += [(line, (0, 1)) for line in found if not bars.plane[line.members[0]] and bends_both_ways(line)]
     beds = [(LineIntegral(line, across if len(planes) > 1 else deflections), planes) for line, planes in ended[:_MOST]]
     one, both = (float(np.log(part / len(beds))) for part in (_PART * (1 - _PART) / 2, _PART**2))
     partly = [_partly(candidate, *bed, back, one) for bed in beds for back in (False, True)]
@@ -113,10 +114,6 @@ def _stiffness(bars: Bars, length: float) -> Unknown:
     """What a bed under a line of that length may have."""
     scale = bars.stiffness / length**4
     return Unknown("stiffness per length", "N/m2", 0.1 * scale, 1e4 * scale)
-
-
-def _bends_both_ways(line: Line) -> bool:
-    return all(len(line.bars.twins[int(line.bars.set[i]), int(line.bars.member[i])]) == 2 for i in line.members)
 
 
 def _with_bed(edit: Edit, segments: list, planes: tuple[int, ...], k: float, where: str) -> Problem:

@@ -1,6 +1,6 @@
 """A joint of bars that turns in bending, about one axis or both, where bars meet or, as a splice does, along a line of them.
 
-Where bars meet in space it may twist too.
+In space it may twist too.
 """
 
 from collections.abc import Callable
@@ -24,7 +24,7 @@ _MOST = 60  # joints that are looked at: those that bend most in the lowest mode
 _SAME = 1e-6  # of directions
 _SPLICE = 0.5  # prior probability that a joint is a splice along a line, where bars meet too
 _BOTH, _TWISTS = 0.5, 0.2  # prior probability that a joint in space turns about both axes, and that it twists as well
-_STARTS = 3  # stiffnesses to begin from
+_STARTS, _ALIKE = 3, 4  # stiffnesses to begin from; of a splice about several axes, about all alike
 _ROOT = 0.01  # of the length of a line, about half the height of a slender section, up to which a splice is at its end
 _STEP = 1.3  # ratio of stiffnesses or masses from which on a straight line changes its section, and does not taper
 
@@ -63,45 +63,63 @@ def _corners(model: Reduced, candidate: Candidate) -> list[Recipe]:
 
 
 def _splices(model: Reduced, candidate: Candidate) -> list[Recipe]:
-    """Those along lines of bars, about one axis; and in space about both, each with a stiffness of its own."""
+    """Those along lines of bars, about one axis; in space about both, and about all three; each with a stiffness of its own."""
     bars, found = model.bars, lines(model)
     if not found:
         return []
     twins = lambda bar: bars.twins[int(bars.set[bar]), int(bars.member[bar])]
     space = [line for line in found if bars.plane[line.members[0]] == 0 and len(twins(line.members[0])) > 1]
-    share = np.log([1 - _BOTH, _BOTH] if space else [1.0, 1.0])
+    twisting = torsion(model, sorted({int(bar) for line in space for bar in line.members}))
+    every = [line for line in space if all(int(bar) in twisting for bar in line.members)]
     one = _spliced(model, candidate, found, lambda bar: [bar])
     both = _spliced(model, candidate, space, twins)
-    shares = zip(share.tolist(), (one, both), strict=True)
-    return [replace(each, log_prior=each.log_prior + own) for own, some in shares for each in some]
+    all_three = _spliced(model, candidate, every, twins, twisting)
+    kinds = [(one, 1 - _BOTH), (both, _BOTH - (_TWISTS if every else 0.0)), (all_three, _TWISTS)]
+    total = sum(share for some, share in kinds if some)
+    return [replace(each, log_prior=each.log_prior + float(np.log(own / total))) for some, own in kinds for each in some]
 
 
 def _spliced(
-    model: Reduced, candidate: Candidate, chosen: list[Line], planes: Callable[[int], list[int]]
+    model: Reduced,
+    candidate: Candidate,
+    chosen: list[Line],
+    planes: Callable[[int], list[int]],
+    twisting: dict[int, Torsion] | None = None,
 ) -> list[Recipe]:
-    """planes: of a bar, those of its element in which it turns."""
+    """planes: of a bar, those of its element in which it turns. twisting: torsion of the bars, of splices that twist too."""
     if not chosen:
         return []
     bars = model.bars
     k = joint_stiffness(model, max(float(bars.EI[line.members].max() / line.length) for line in chosen))
-    count = len(planes(chosen[0].members[0]))
-    names = [k.name] if count == 1 else [f"{k.name}, local {axis}" for axis in "yz"]
+    axes = ["local y", "local z"][: len(planes(chosen[0].members[0]))] + (["torsion"] if twisting else [])
+    names = [k.name] if len(axes) == 1 else [f"{k.name}, {axis}" for axis in axes]
 
     def does(bar: int, share: float, values: np.ndarray) -> Change:
         b = np.array([1.0, 2 * share - 1, 0.0])
-        turns = zip(planes(bar), values, strict=True)
-        return summed([hinged(bars, each, share, np.outer(b, b) / value) for each, value in turns])
+        turns = zip(planes(bar), values, strict=False)
+        turning = summed([hinged(bars, each, share, np.outer(b, b) / value) for each, value in turns])
+        return twisted(turning, bars, bar, share, twisting[bar], values[-1]) if twisting else turning
 
     def extend(problem: Problem, bar: int, share: float, values: np.ndarray) -> Problem:
         own = planes(bar)
         about = [f", local {'yz'[bars.plane[each]]}" if len(own) > 1 else "" for each in own]
+        about += [", torsion"] if twisting else []
         named = [f"splice in {bars.site(bar, share).text}{each}" for each in about]
         return with_joint(problem, bars, own, share, named, values)
 
-    starts = np.column_stack([steps(k, _STARTS if count == 1 else 2)] * count)
+    starts = np.column_stack([steps(k, _STARTS if len(axes) == 1 else _ALIKE)] * len(axes))
     sizes = tuple(replace(k, name=name) for name in names)
     made = places(model, candidate, sizes, does, starts, extend, chosen)
-    return [replace(one, limit=_root(model, line)) for one, line in zip(made, chosen, strict=True)]
+    about = f", {enumerated(axes)}" if len(axes) > 1 else ""
+    return [
+        replace(one, limit=_root(model, line), site=lambda values, site=one.site: _about(site(values), about))
+        for one, line in zip(made, chosen, strict=True)
+    ]
+
+
+def _about(site: Site, axes: str) -> Site:
+    """A place with the axes about which it turns, where there are several."""
+    return replace(site, text=site.text + axes)
 
 
 def _root(model: Reduced, line: Line) -> Callable[[np.ndarray], str]:
@@ -195,7 +213,7 @@ CANDIDATE = Candidate(
     "a flexible joint",
     "local-stiffness",
     "a connection of bars (bolts, weld, corner, or a splice anywhere along them) that the model takes as rigid and that rotates in "
-    "proportion to the moment, about one axis or both, and where bars meet in space about all three",
+    "proportion to the moment, about one axis or both, and in space about all three",
     recipes,
     bars,
 )

@@ -10,7 +10,7 @@ from mouse_cli.diagnosis.effects.members import of_members
 from mouse_cli.diagnosis.effects.thickness import of_shells
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
-from mouse_cli.diagnosis.sites.stretches import of_lines
+from mouse_cli.diagnosis.sites.stretches import in_both_planes, of_lines
 
 _SELDOM = 0.1  # how often a part is stiffer beside how often any other cause is there: nothing stiffens by wear or by accident
 _KNOWN = 0.1  # the same of a part with a parameter of its own, of which the deck has said how far it may go
@@ -22,8 +22,8 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     K(t) and M(t) of a set of shells.
     """
     others = of_elements(model, candidate, 1, directed=True) + of_springs(model, candidate, 1)
-    kinds = [of_lines(model, candidate, True), others, of_members(model, candidate, 1), of_shells(model, candidate, 1)]
-    kinds = [each for each in kinds if each]
+    bars = [of_lines(model, candidate, True), in_both_planes(model, candidate, True)]
+    kinds = [each for each in (*bars, others, of_members(model, candidate, 1), of_shells(model, candidate, 1)) if each]
     share = -float(np.log(max(len(kinds), 1)))
     found = [each for kind in kinds for each in kind]
     known = [_log_known(model, each) if len(each.unknowns) == 1 else 0.0 for each in found]

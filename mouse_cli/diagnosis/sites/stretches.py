@@ -21,10 +21,29 @@ def of_lines(model: Reduced, candidate: Candidate, stiffer: bool = False) -> lis
     chosen = lines(model)
     total = sum(line.length for line in chosen)
     widest = _WIDEST if len(chosen) == 1 else 1.0
-    return [_recipe(model, candidate, line, line.length / total, widest, stiffer) for line in chosen]
+    return [_recipe(candidate, line, line.length / total, widest, stiffer, both=False) for line in chosen]
 
 
-def _recipe(model: Reduced, candidate: Candidate, line: Line, share: float, widest: float, stiffer: bool) -> Recipe:
+def in_both_planes(model: Reduced, candidate: Candidate, stiffer: bool = False) -> list[Recipe]:
+    """The same for each row of bars that bends in two planes, in both alike: of another material, or by another wall."""
+    chosen = [line for line in lines(model) if not line.bars.plane[line.members[0]] and bends_both_ways(line)]
+    total = sum(line.length for line in chosen)
+    widest = _WIDEST if len(chosen) == 1 else 1.0
+    return [_recipe(candidate, line, line.length / total, widest, stiffer, both=True) for line in chosen]
+
+
+def bends_both_ways(line: Line) -> bool:
+    """Whether all of its bars bend in two planes."""
+    return all(len(planes) == 2 for planes in _planes(line, line.members))
+
+
+def _planes(line: Line, members: np.ndarray) -> list[list[int]]:
+    """Bars of the same element, for each of `members`: one for each plane."""
+    bars = line.bars
+    return [bars.twins[int(bars.set[i]), int(bars.member[i])] for i in members]
+
+
+def _recipe(candidate: Candidate, line: Line, share: float, widest: float, stiffer: bool, both: bool) -> Recipe:
     L = line.length
     d = Unknown("stiffness added" if stiffer else "flexibility added", "1", 0.02, 3.0)
     w = Unknown("width over length", "1", 0.05, widest)
@@ -32,16 +51,20 @@ def _recipe(model: Reduced, candidate: Candidate, line: Line, share: float, wide
 
     def change(values: np.ndarray) -> Change:
         touched, a, b = covered(line, *stretch(line, values))
+        if both:
+            touched, a, b = np.ravel(_planes(line, touched)).astype(int), np.repeat(a, 2), np.repeat(b, 2)
         more = -values[0] / (1 + values[0]) if stiffer else values[0]
         return Change(softening=Softening(touched, more * bent(line, touched, a, b)))
 
     def site(values: np.ndarray) -> Site:
         here = line.site(sum(stretch(line, values)) / 2)  # the middle of what is covered: less than the width at an end
-        return Site(here.kind, here.ids, here.position, f"{values[1]:.2g} of the length, about {here.text}")
+        text = f"{values[1]:.2g} of the length, about {here.text}" + (", in both planes" if both else "")
+        return Site(here.kind, here.ids, here.position, text)
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         factor = 1 + values[0] if stiffer else 1 / (1 + values[0])
-        return _with_stretch(problem, line, *stretch(line, values), factor, site(values).text)
+        names = ("Iy", "Iz") if both else ("Iy",) if line.bars.plane[line.members[0]] else ("Iz",)
+        return _with_stretch(problem, line, stretch(line, values), names, factor, site(values).text)
 
     grid = product(steps(d, 2), steps(w, 2), line.starts(_STARTS, share))
     return Recipe(candidate, (d, w, x), change, grid, site, log_prior=float(np.log(share)), extend=extend)
@@ -77,10 +100,10 @@ def elements_of(edit: Edit, line: Line, first: float, last: float) -> list[tuple
     return beams_within(edit, [tuple(ends)])
 
 
-def _with_stretch(problem: Problem, line: Line, first: float, last: float, factor: float, where: str) -> Problem:
-    edit, bars = Edit(problem), line.bars
-    touched = elements_of(edit, line, first, last)
-    name = "Iy" if bars.plane[line.members[0]] else "Iz"
+def _with_stretch(
+    problem: Problem, line: Line, ends: tuple[float, float], names: tuple[str, ...], factor: float, where: str
+) -> Problem:
+    edit = Edit(problem)
     what = f"stiffness left of {where}" if factor < 1 else f"stiffness of {where}, strengthened"
-    edit.bind(what, touched, (name,), factor=factor)
+    edit.bind(what, elements_of(edit, line, *ends), names, factor=factor)
     return edit.done()
