@@ -94,7 +94,7 @@ model:
 
 
 def diagnosed(text: str, choices: Choices | None = None):
-    return diagnose(assemble(yaml_deck.read(text, "deck.yaml")), choices or Choices())
+    return diagnose(assemble(yaml_deck.read(text, "deck.yaml")), choices=choices or Choices())
 
 
 def test_a_seized_bearing_below_the_axis_holds_beside_it():
@@ -133,6 +133,15 @@ def jointed(points: np.ndarray, joins: list[tuple[int, int]], at: int, turns: np
     return K, M
 
 
+CRANK = [([0, 0, 0], [0, 0, 0.6]), ([0, 0, 0.6], [0.7, 0, 0.6]), ([0.7, 0, 0.6], [0.7, 0.5, 0.7])]
+
+
+def crank(n: int) -> tuple[np.ndarray, list[tuple[int, int]], np.ndarray]:
+    """Points and bars of an arm with a crank at its end, n to each of three lines, and what every second point reads."""
+    points = np.concatenate([np.linspace(*line, n + 1)[i > 0 :] for i, line in enumerate(CRANK)])
+    return points, [(i, i + 1) for i in range(3 * n)], np.array([6 * i + d for i in range(2, 3 * n + 1, 2) for d in range(3)])
+
+
 @pytest.mark.proof
 def test_a_joint_turns_about_both_axes():
     """A drive, a flange, a socket: one axis alone leaves the modes of the other plane wrong."""
@@ -152,11 +161,8 @@ def test_a_joint_turns_about_both_axes():
 def test_a_joint_that_twists_as_well():
     """A pylon below a wing, a boom on a bolted bracket: an arm with a crank at its end, whose joint is flexible about all axes."""
     n = 4
-    lines = ([0, 0, 0], [0, 0, 0.6]), ([0, 0, 0.6], [0.7, 0, 0.6]), ([0.7, 0, 0.6], [0.7, 0.5, 0.7])
-    points = np.concatenate([np.linspace(*line, n + 1)[i > 0 :] for i, line in enumerate(lines)])
-    joins = [(i, i + 1) for i in range(3 * n)]
+    points, joins, rows = crank(n)
     K, M = jointed(points, joins, n, TURNS)
-    rows = np.array([6 * i + d for i in (2, 4, 6, 8, 10, 12) for d in range(3)])
     test = measured(K, M, np.arange(6, len(K)), rows, 8, seed=4)
     choices = Choices(("joint", "support-rotation", "mass", "member"))
     found = diagnosed(model(points, joins, *BAR, "    supports: {1: all}\n") + test, choices)
@@ -165,6 +171,58 @@ def test_a_joint_that_twists_as_well():
     assert cause.site.text == f"element {n + 1} at node {n + 1}, local y, local z and torsion"
     for size, true in zip(cause.sizes, TURNS[[2, 1, 0]], strict=True):
         assert abs(size.value - true) < 3 * size.sd + 0.01 * true
+
+
+@pytest.mark.proof
+def test_a_splice_along_a_line_that_twists_as_well():
+    """Bolts of a flange within a straight arm are soft about all axes; about two alone the modes that twist it stay wrong."""
+    n = 4
+    points, joins, rows = crank(n)
+    K, M = jointed(points, joins, n + 2, TURNS)
+    test = measured(K, M, np.arange(6, len(K)), rows, 8, seed=6)
+    choices = Choices(("joint", "support-rotation", "mass", "member"), causes=1)
+    found = diagnosed(model(points, joins, *BAR, "    supports: {1: all}\n") + test, choices)
+    (cause,) = found.best.causes
+    assert (found.kind, cause.physics) == (NAMED, "joint")
+    assert cause.site.text.endswith(", local y, local z and torsion")
+    np.testing.assert_allclose(cause.site.position, points[n + 2], atol=0.02)
+    for size, true in zip(cause.sizes, TURNS[[2, 1, 0]], strict=False):
+        assert abs(size.value - true) < 3 * size.sd + 0.01 * true
+
+
+@pytest.mark.proof
+def test_a_stretch_that_is_softer_in_both_planes_keeps_its_mass():
+    """Laminate that has parted, concrete that has burnt: half of the stiffness in bending of two bars of the upright is lost."""
+    n = 6
+    points, joins, rows = crank(n)
+    K, M = frame(points, joins, *BAR)
+    K -= 0.5 * frame(points, joins[2:4], 0.0, BAR[1], 0.0)[0]
+    test = measured(K, M, np.arange(6, len(K)), rows, 8, seed=7)
+    choices = Choices(("stiffness-loss", "corrosion", "crack", "mass"), causes=1)
+    found = diagnosed(model(points, joins, *BAR, "    supports: {1: all}\n") + test, choices)
+    (cause,) = found.best.causes
+    assert (found.kind, cause.physics) == (NAMED, "stiffness-loss") and cause.site.text.endswith(", in both planes")
+    added, width, place = cause.sizes
+    assert abs(place.value - 0.3) < 3 * place.sd and place.sd < 0.05
+    lost = added.value * width.value  # what a stretch bends more is its product alone, where it is short
+    assert lost == pytest.approx(1 / 3, rel=0.2)
+    stiff = [dense(assembly(each).matrices(each.prior.mean)[0]) for each in (found.problem, found.extended)]
+    assert stiff[1].trace() < stiff[0].trace() or len(stiff[1]) > len(stiff[0])
+
+
+@pytest.mark.proof
+def test_mass_along_all_of_one_row_is_named_with_all_of_it():
+    """A pipe that holds water between two corners: no part of the row from an end on, and no second mass at the other."""
+    n = 4
+    points, joins, rows = crank(n)
+    K, M = frame(points, joins, *BAR)
+    M += frame(points, joins[n : 2 * n], 0.6 * BAR[0], 0.0, 0.0)[1]
+    test = measured(K, M, np.arange(6, len(K)), rows, 7, seed=8)
+    choices = Choices(("added-mass", "mass", "lighter"), causes=2)
+    found = diagnosed(model(points, joins, *BAR, "    supports: {1: all}\n") + test, choices)
+    (cause,) = found.best.causes
+    assert (found.kind, cause.physics, cause.site.text) == (NAMED, "added-mass", f"elements {n + 1} to {2 * n}")
+    assert abs(cause.sizes[0].value - 0.6 * RHO * BAR[0]) < 3 * cause.sizes[0].sd
 
 
 @pytest.mark.parametrize("mass", ["consistent", "lumped", "translational"])

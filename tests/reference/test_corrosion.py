@@ -62,7 +62,7 @@ test:
 
 def test_a_thinner_wall_is_named_with_its_extent():
     problem = assemble(yaml_deck.read(deck(), "deck.yaml"))
-    found = diagnose(problem, Choices(("corrosion", "stiffness-loss", "added-mass", "mass"), causes=1))
+    found = diagnose(problem, choices=Choices(("corrosion", "stiffness-loss", "added-mass", "mass"), causes=1))
     assert (found.kind, found.best.physics) == (NAMED, "corrosion")
     lost, width, before = (size.value for size in found.best.causes[0].sizes)
     first = before * (1 - width)

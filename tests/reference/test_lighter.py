@@ -45,5 +45,5 @@ def test_the_extended_deck_is_that_of_the_truth(empty):
 
 
 def test_a_full_pipe_lacks_nothing():
-    found = diagnose(problem(1.0), Choices(("lighter", "mass", "added-mass", "member")))
+    found = diagnose(problem(1.0), choices=Choices(("lighter", "mass", "added-mass", "member")))
     assert found.kind == NOTHING

@@ -141,7 +141,9 @@ parameters:
   - {{name: E, elements: 1-2, property: E, sd: 2 %}}
 test:
   modes: {{frequency: {exact.tolist()}, frequency_sd: 0.1 %}}
-  hold_out: {{modes: [3], altered: [{{title: heavier, mass: {{2: 5.0}}, number: [2], frequency: [{exact[1]}], frequency_sd: 0.1 %}}]}}
+  hold_out:
+    modes: [3]
+    altered: [{{title: heavier, mass: {{2: 5.0}}, number: [2], frequency: [{exact[1]}], frequency_sd: 0.1 %}}]
 """
     problem = assemble(yaml_deck.read(text, "pinned.yaml"))
     found = diagnose(problem, choices=Choices(("mass", "ground-spring"), causes=1))

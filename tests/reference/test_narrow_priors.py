@@ -43,7 +43,7 @@ test:
 
 def answer(share: float, sd: str):
     problem = assemble(yaml_deck.read(deck(share, sd), "deck.yaml"))
-    return diagnose(problem, Choices(("added-mass", "ground-spring"), causes=1))
+    return diagnose(problem, choices=Choices(("added-mass", "ground-spring"), causes=1))
 
 
 def test_a_parameter_beyond_its_prior_is_said_beside_what_would_explain_it():

@@ -57,7 +57,9 @@ def diagonals(labels: tuple[str, ...], k: int) -> np.ndarray:
     return K
 
 
-@pytest.mark.parametrize(("floors", "said"), [((2,), "the floor at Z = 6 m"), ((1, 2), "all floors")])
+@pytest.mark.parametrize(
+    ("floors", "said"), [((2,), "the floor at Z = 6 m"), pytest.param((1, 2), "all floors", marks=pytest.mark.proof)]
+)
 def test_a_slab_is_named_by_its_floor_and_its_shear_stiffness(floors, said):
     bare = assemble(
         yaml_deck.read(
