@@ -54,8 +54,8 @@ def begun(measured: Measured, notice: Callable[[str], None]) -> Begun:
         if not coarse or len(said) == _HALVINGS:
             return Begun(measured, problem, solver, kept, model, said + remarks)
         said += (
-            f"numerics: the mesh is too coarse for this test, {coarse}: every beam is taken in two halves, the second of which, "
-            f"and the node between, are called {beyond(problem)} more than the element",
+            f"numerics: the mesh is too coarse for this test, {coarse}: every beam is taken in two halves (cables in four), the "
+            f"second of which, and the node between, are called {beyond(problem)} more than the element",
         )
         measured = measured.of(halved)
 

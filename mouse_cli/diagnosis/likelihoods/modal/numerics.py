@@ -27,7 +27,6 @@ _TELLING = 0.3  # of a standard deviation
 # that of cables, whose shapes are linear, with h^2, so that quarters leave as much
 _LEFT = 1 / 15
 _BESIDE = 12  # modes of the finer model beyond twice those that are looked at: bars of few elements have some of their own
-_ALLOWED, _CORRECTED = "that much is allowed for", "predictions are corrected for it to first order"
 _ALIKE, _MATCHED = 0.1, 0.5  # share of a mode that one of the finer model is of it at least; that all of these are
 
 
