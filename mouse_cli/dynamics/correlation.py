@@ -6,6 +6,7 @@ LIKELY = 0.8  # a measured and a model mode farther apart than this are not one 
 # Detuning beyond which frequencies tell no more: a MAC above 0.8 makes a pair even in a model far too stiff
 ANY_FREQUENCY = 0.6
 _DOUBLE = 1e-3  # of their frequency: modes so close are one double mode, whose shapes are any two of a plane
+_WITHIN = 0.1  # share by which the MAC with each tells modes of a plane apart, where that with the plane does not
 _SAME_SHAPE = 1e-6  # of the largest singular value of its shapes: what sensors see of a plane less than that is nothing
 
 
@@ -74,7 +75,7 @@ def _with_double(likeness: np.ndarray, test: np.ndarray, shapes: np.ndarray, hz:
                 U, size, _ = np.linalg.svd(A, full_matrices=False)
                 along = U[:, size > _SAME_SHAPE * size[0]].T @ y
                 unlike = (1 - along @ along / max(y @ y, 1e-300)) * (len(y) - 1) / (len(y) - A.shape[1])
-                likeness[i, own] = np.maximum(likeness[i, own], 1 - unlike)
+                likeness[i, own] = np.maximum(likeness[i, own], 1 - unlike - _WITHIN * (1 - likeness[i, own]))
     return likeness
 
 

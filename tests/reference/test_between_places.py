@@ -332,7 +332,7 @@ def test_two_places_that_predict_the_same_are_two():
 
     def end(*sites: Site) -> SimpleNamespace:
         point, base = SimpleNamespace(residual=np.ones(4)), SimpleNamespace(problem=flat)
-        return SimpleNamespace(sites=sites, misfit=4.0, point=point, recipes=(), model=SimpleNamespace(base=base))
+        return SimpleNamespace(sites=sites, misfit=4.0, point=point, recipes=(), model=SimpleNamespace(base=base, t=1))
 
     node = lambda x: Site("node", (int(1000 * x),), (x, 0.0, 0.0))
     brace = lambda *ids: Site("node", ids, (1.0, 0.0, 0.0))
