@@ -54,8 +54,8 @@ def pair(test_shapes: np.ndarray, test_hz: np.ndarray, shapes: np.ndarray, hz: n
     return paired(distance(_with_double(mac(test_shapes, shapes), test_shapes, shapes, hz), test_hz, hz))
 
 
-def _with_double(likeness: np.ndarray, test: np.ndarray, shapes: np.ndarray, hz: np.ndarray) -> np.ndarray:
-    """`likeness` (m, k), the MAC, where modes of the model are double: of each of these the squared cosine between a measured shape
+def _with_double(macs: np.ndarray, test: np.ndarray, shapes: np.ndarray, hz: np.ndarray) -> np.ndarray:
+    """`macs` (m, k), the MAC, where modes of the model are double: of each of these the squared cosine between a measured shape
     and all that they can be together, for s points and d such modes by (s - 1) / (s - d) less unlike, as chance has it.
 
     test (s, m) may hold NaN; shapes (s, k), hz (k,).
@@ -64,8 +64,8 @@ def _with_double(likeness: np.ndarray, test: np.ndarray, shapes: np.ndarray, hz:
     rising = hz[order]
     close = (rising[:-1] > 0) & (np.diff(rising) <= _DOUBLE * rising[1:])
     if not close.any():
-        return likeness
-    likeness, have = likeness.copy(), np.isfinite(test)
+        return macs
+    macs, have = macs.copy(), np.isfinite(test)
     edges = np.flatnonzero(np.diff(np.concatenate([[0], close, [0]])))
     for first, last in edges.reshape(-1, 2):
         own = order[first : last + 1]
@@ -75,8 +75,8 @@ def _with_double(likeness: np.ndarray, test: np.ndarray, shapes: np.ndarray, hz:
                 U, size, _ = np.linalg.svd(A, full_matrices=False)
                 along = U[:, size > _SAME_SHAPE * size[0]].T @ y
                 unlike = (1 - along @ along / max(y @ y, 1e-300)) * (len(y) - 1) / (len(y) - A.shape[1])
-                likeness[i, own] = np.maximum(likeness[i, own], 1 - unlike - _WITHIN * (1 - likeness[i, own]))
-    return likeness
+                macs[i, own] = np.maximum(macs[i, own], 1 - unlike - _WITHIN * (1 - macs[i, own]))
+    return macs
 
 
 class Measured:

@@ -173,15 +173,20 @@ def test_a_joint_that_twists_as_well():
         assert abs(size.value - true) < 3 * size.sd + 0.01 * true
 
 
+def on_crank(n: int, K: np.ndarray, M: np.ndarray, count: int, seed: int, *candidates: str, causes: int = 1):
+    """The diagnosis of that arm, clamped at its foot, by `count` modes of K and M, with so many mechanisms at most."""
+    points, joins, rows = crank(n)
+    test = measured(K, M, np.arange(6, len(K)), rows, count, seed)
+    return diagnosed(model(points, joins, *BAR, "    supports: {1: all}\n") + test, Choices(candidates, causes))
+
+
 @pytest.mark.proof
 def test_a_splice_along_a_line_that_twists_as_well():
     """Bolts of a flange within a straight arm are soft about all axes; about two alone the modes that twist it stay wrong."""
     n = 4
-    points, joins, rows = crank(n)
+    points, joins, _ = crank(n)
     K, M = jointed(points, joins, n + 2, TURNS)
-    test = measured(K, M, np.arange(6, len(K)), rows, 8, seed=6)
-    choices = Choices(("joint", "support-rotation", "mass", "member"), causes=1)
-    found = diagnosed(model(points, joins, *BAR, "    supports: {1: all}\n") + test, choices)
+    found = on_crank(n, K, M, 8, 6, "joint", "support-rotation", "mass", "member")
     (cause,) = found.best.causes
     assert (found.kind, cause.physics) == (NAMED, "joint")
     assert cause.site.text.endswith(", local y, local z and torsion")
@@ -194,12 +199,10 @@ def test_a_splice_along_a_line_that_twists_as_well():
 def test_a_stretch_that_is_softer_in_both_planes_keeps_its_mass():
     """Laminate that has parted, concrete that has burnt: half of the stiffness in bending of two bars of the upright is lost."""
     n = 6
-    points, joins, rows = crank(n)
+    points, joins, _ = crank(n)
     K, M = frame(points, joins, *BAR)
     K -= 0.5 * frame(points, joins[2:4], 0.0, BAR[1], 0.0)[0]
-    test = measured(K, M, np.arange(6, len(K)), rows, 8, seed=7)
-    choices = Choices(("stiffness-loss", "corrosion", "crack", "mass"), causes=1)
-    found = diagnosed(model(points, joins, *BAR, "    supports: {1: all}\n") + test, choices)
+    found = on_crank(n, K, M, 8, 7, "stiffness-loss", "corrosion", "crack", "mass")
     (cause,) = found.best.causes
     assert (found.kind, cause.physics) == (NAMED, "stiffness-loss") and cause.site.text.endswith(", in both planes")
     added, width, place = cause.sizes
@@ -215,12 +218,10 @@ def test_a_stretch_that_is_softer_in_both_planes_keeps_its_mass():
 def test_mass_along_all_of_one_row_is_named_with_all_of_it():
     """A pipe that holds water between two corners: no part of the row from an end on, and no second mass at the other."""
     n = 4
-    points, joins, rows = crank(n)
+    points, joins, _ = crank(n)
     K, M = frame(points, joins, *BAR)
     M += frame(points, joins[n : 2 * n], 0.6 * BAR[0], 0.0, 0.0)[1]
-    test = measured(K, M, np.arange(6, len(K)), rows, 7, seed=8)
-    choices = Choices(("added-mass", "mass", "lighter"), causes=2)
-    found = diagnosed(model(points, joins, *BAR, "    supports: {1: all}\n") + test, choices)
+    found = on_crank(n, K, M, 7, 8, "added-mass", "mass", "lighter", causes=2)
     (cause,) = found.best.causes
     assert (found.kind, cause.physics, cause.site.text) == (NAMED, "added-mass", f"elements {n + 1} to {2 * n}")
     assert abs(cause.sizes[0].value - 0.6 * RHO * BAR[0]) < 3 * cause.sizes[0].sd

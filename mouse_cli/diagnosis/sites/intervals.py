@@ -11,7 +11,7 @@ from mouse_cli.model.diagnosis import Site
 
 # Of the line: what is narrower acts at a point; what is wider on one that is all of the structure, on all of it
 _NARROWEST, _WIDEST = 0.1, 0.95
-_WHOLE = 0.995  # share from which on it is said to be all of it
+_WHOLE = 0.995  # share from which on it is reported as all of it
 _WIDTHS, _PLACES = 2, 4  # to begin from
 
 

@@ -52,19 +52,19 @@ def directions(model: Reduced) -> list[Points]:
     return _shared(found + [point for node in _nodes(model) for point in _split(node)])
 
 
-def in_all_directions(model: Reduced, said: str = "all directions alike") -> list[Points]:
-    """Places that move along more than one axis, with all their translations; said: of these, behind the place."""
+def in_all_directions(model: Reduced, suffix: str = "all directions alike") -> list[Points]:
+    """Places that move along more than one axis, with all their translations; suffix: of the text of each place."""
     kept = set() if model.motion is None else set(model.problem.mesh.directions)
     places = all_motions(model) if len(kept & {0, 1, 2}) > 1 else []
-    return [_together(point, kept, said) for point in places if len(kept.intersection(point.dofs)) > 1]
+    return [_together(point, kept, suffix) for point in places if len(kept.intersection(point.dofs)) > 1]
 
 
-def _together(point: Points, kept: set[int], said: str) -> Points:
+def _together(point: Points, kept: set[int], suffix: str) -> Points:
     rows = [i for i, d in enumerate(point.dofs) if d in kept]
 
     def site(values: np.ndarray) -> Site:
         here = point.site(values)
-        return replace(here, text=f"{here.text}, {said}")
+        return replace(here, text=f"{here.text}, {suffix}")
 
     dofs = tuple(point.dofs[i] for i in rows)
     return replace(point, site=site, dofs=dofs, motion=lambda values: point.motion(values)[rows])

@@ -18,18 +18,20 @@ _WIDEST = 0.6  # of a line that is all of the structure: beyond, a stretch is th
 
 def of_lines(model: Reduced, candidate: Candidate, stiffer: bool = False) -> list[Recipe]:
     """1/EI (1 + d), or EI (1 + d) of one that is stiffer, over a stretch of width w about x, for each line of bars."""
-    chosen = lines(model)
-    total = sum(line.length for line in chosen)
-    widest = _WIDEST if len(chosen) == 1 else 1.0
-    return [_recipe(candidate, line, line.length / total, widest, stiffer, both=False) for line in chosen]
+    return _over(lines(model), candidate, stiffer, both=False)
 
 
 def in_both_planes(model: Reduced, candidate: Candidate, stiffer: bool = False) -> list[Recipe]:
     """The same for each row of bars that bends in two planes, in both alike: of another material, or by another wall."""
-    chosen = [line for line in lines(model) if not line.bars.plane[line.members[0]] and bends_both_ways(line)]
+    rows = [line for line in lines(model) if not line.bars.plane[line.members[0]] and bends_both_ways(line)]
+    return _over(rows, candidate, stiffer, both=True)
+
+
+def _over(chosen: list[Line], candidate: Candidate, stiffer: bool, both: bool) -> list[Recipe]:
+    """A stretch of each of the lines `chosen`, which share the prior by their lengths."""
     total = sum(line.length for line in chosen)
     widest = _WIDEST if len(chosen) == 1 else 1.0
-    return [_recipe(candidate, line, line.length / total, widest, stiffer, both=True) for line in chosen]
+    return [_recipe(candidate, line, line.length / total, widest, stiffer, both) for line in chosen]
 
 
 def bends_both_ways(line: Line) -> bool:
