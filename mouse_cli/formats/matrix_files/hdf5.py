@@ -5,6 +5,8 @@ attribute (SciPy, AnnData, h5sparse); cidx, ridx, data (Octave); or row, col, da
 """
 
 import os
+from collections.abc import Callable
+from importlib.util import find_spec
 from mmap import ACCESS_READ, mmap
 from typing import Any
 
@@ -12,6 +14,7 @@ import numpy as np
 
 from mouse_cli._errors import DeckError
 from mouse_cli.formats.data_files import FileFormat, check_memory, reject
+from mouse_cli.formats.isolated import call
 from mouse_cli.formats.matrix_files import MAX_ORDER, choose, real, whole
 from mouse_cli.model.arrays import Matrix
 
@@ -50,21 +53,24 @@ def check_heaps(path: str) -> None:
             at = data.find(_HEAP, at + 1)
 
 
-def library(path: str) -> Any:
-    """The package h5py; MD261 where it is not installed."""
-    try:
-        import h5py
-    except ImportError:
+def isolated(read: Callable[..., Any], path: str, *arguments: object) -> Any:
+    """What `read(path, *arguments)` gives, which uses h5py: the library may crash on damage. MD261 where it is not installed."""
+    if find_spec("h5py") is None:
         reject("MD261", path, "reading HDF5 needs the package h5py, which is not installed", _INSTALL)
-    return h5py
+    check_heaps(path)
+    return call(read, path, *arguments)
 
 
 def read(path: str, variable: str | None) -> Matrix:
     """The matrix at `variable`, a path such as `model/K`, or the only one at the root."""
     if not claims(path):
         reject("MD252", path, "not an HDF5 file", "write it with h5py, or in MATLAB with save -v7.3")
-    check_heaps(path)
-    h5py = library(path)
+    return isolated(_read, path, variable)
+
+
+def _read(path: str, variable: str | None) -> Matrix:
+    import h5py
+
     try:
         with h5py.File(path, "r") as file:
             return _matrix(path, h5py, file, variable)

@@ -22,8 +22,12 @@ def read(path: str) -> Contents:
     """Every data set of numbers in the file."""
     if not hdf5_matrices.claims(path):
         raise ValueError("no HDF5 signature")
-    hdf5_matrices.check_heaps(path)
-    h5py = hdf5_matrices.library(path)
+    return hdf5_matrices.isolated(_read, path)
+
+
+def _read(path: str) -> Contents:
+    import h5py
+
     arrays: dict[str, np.ndarray] = {}
     units: dict[str, str] = {}
     with h5py.File(path, "r") as file:

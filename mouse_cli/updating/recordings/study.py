@@ -1,6 +1,7 @@
 """What all fits of a deck by its recordings share, and one fit."""
 
 from collections.abc import Callable
+from copy import copy
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -50,6 +51,7 @@ _SAMPLES = 8192  # of a record that the closed form looks at
 _PERIODS, _SHORTEST, _LONGEST = 10, 256, 1024  # of the first mode in a horizon; its samples
 _SEGMENTS = 10
 _ABOVE = 5.0  # highest mode of a large model, by the highest frequency of the response: what acts between sensors bends it too
+_BEHIND = 1.1  # times its cost, from which on a fit in shorter steps is another optimum
 _BEYOND = 0.75  # the same, by the sample rate at most
 
 
@@ -202,6 +204,16 @@ def fitted(study: Study, start: Start | None, beat: float = np.inf, first: Fit |
     spread = look[id(study.data[0])].spread if study.spread is None else study.spread
     states, internal = begin(hypothesis, x, study.data, [look[id(data)] for data in study.data])
     return followed(hypothesis, study.data, spread, x, states, internal, beat)
+
+
+def finer(study: Study, one: Fit) -> Fit:
+    """The fit with its sizes as steps of half the length leave them, whose error is a quarter; all else is as it was compared."""
+    halved = copy(study)
+    halved.data = [part.halved for part in study.data]
+    found = fitted(halved, Start(one.hypothesis, one.x, 0.0), _BEHIND * one.cost)
+    if found is None or found.cost > _BEHIND * one.cost:
+        return one
+    return replace(one, x=found.x, states=found.states, covariance=found.covariance)
 
 
 def begin(hypothesis: Hypothesis, x: np.ndarray, data: list[Segments], looks: list[Regression]):

@@ -1,10 +1,12 @@
 """Diagnosis by recordings: is it linear, where does it depart, which law, how much, and is it true."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from mouse_cli.diagnosis.extend.laws import extended
 from mouse_cli.diagnosis.likelihoods.history.search import weighed
 from mouse_cli.diagnosis.likelihoods.history.verdict import decided, explanations, ranked, remedies, untried
+from mouse_cli.diagnosis.search.rank import Ranking
 from mouse_cli.diagnosis.verdict import leader
 from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, UNKNOWN, Choices, Diagnosis
 from mouse_cli.model.problem import Problem
@@ -16,7 +18,7 @@ from mouse_cli.updating.recordings.at_odds import odd
 from mouse_cli.updating.recordings.channels import misreadings
 from mouse_cli.updating.recordings.records import named, records
 from mouse_cli.updating.recordings.signs import linearity
-from mouse_cli.updating.recordings.study import Study, study
+from mouse_cli.updating.recordings.study import Study, finer, study
 from mouse_cli.updating.recordings.validation import ratio, scores, surface, trace
 
 Notice = Callable[[str], None]
@@ -32,7 +34,7 @@ def diagnose_records(problem: Problem, notice: Notice, choices: Choices, own: St
     every = registry() | misreadings(own.look.dt)
     known = None if choices.candidates is None else [law for key, law in every.items() if key in choices.candidates]
     searched = weighed(own, notice, known, choices.causes)
-    baseline, ranking = searched.baseline, ranked(searched)
+    baseline, ranking = searched.baseline, _finer(own, ranked(searched))
     notice("records that no fit has seen")
     best = leader(ranking)
     proof = scores(own, baseline, best)
@@ -61,3 +63,12 @@ def diagnose_records(problem: Problem, notice: Notice, choices: Choices, own: St
         surface=None if told is None else surface(own, told),
         extended=None if told is None else extended(problem, told),
     )
+
+
+def _finer(own: Study, found: Ranking) -> Ranking:
+    """The ranking with the sizes of its leading law from shorter steps."""
+    best = leader(found)
+    if best is None:
+        return found
+    settled = finer(own, best)
+    return replace(found, fits=tuple(settled if one is best else one for one in found.fits))
