@@ -67,15 +67,18 @@ def _with_double(macs: np.ndarray, test: np.ndarray, shapes: np.ndarray, hz: np.
         return macs
     macs, have = macs.copy(), np.isfinite(test)
     edges = np.flatnonzero(np.diff(np.concatenate([[0], close, [0]])))
-    for first, last in edges.reshape(-1, 2):
-        own = order[first : last + 1]
-        for i in range(test.shape[1]):
-            y, A = test[have[:, i], i], shapes[have[:, i]][:, own]
-            if len(y) > A.shape[1]:
-                U, size, _ = np.linalg.svd(A, full_matrices=False)
-                along = U[:, size > _SAME_SHAPE * size[0]].T @ y
-                unlike = (1 - along @ along / max(y @ y, 1e-300)) * (len(y) - 1) / (len(y) - A.shape[1])
-                macs[i, own] = np.maximum(macs[i, own], 1 - unlike - _WITHIN * (1 - macs[i, own]))
+    for points in have[:, :1].T if have.all() else np.unique(have, axis=1).T:
+        alike = np.flatnonzero((have == points[:, None]).all(axis=0))
+        Y = test[np.ix_(points, alike)]
+        for first, last in edges.reshape(-1, 2):
+            own = order[first : last + 1]
+            if len(Y) > len(own):
+                U, size, _ = np.linalg.svd(shapes[points][:, own], full_matrices=False)
+                along = U[:, size > _SAME_SHAPE * size[0]].T @ Y
+                seen = np.square(along).sum(axis=0) / np.maximum(np.square(Y).sum(axis=0), 1e-300)
+                unlike = (1 - seen) * (len(Y) - 1) / (len(Y) - len(own))
+                at = np.ix_(alike, own)
+                macs[at] = np.maximum(macs[at], 1 - unlike[:, None] - _WITHIN * (1 - macs[at]))
     return macs
 
 

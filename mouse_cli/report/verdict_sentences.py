@@ -175,7 +175,10 @@ def _separating(found: Diagnosis) -> str:
 def _unknown(found: Diagnosis) -> tuple[str, ...]:
     """No probability is given: none is of a hypothesis that explains the data."""
     if found.misstated:
-        first = "Model and test disagree, and the test itself looks at fault. No mechanism can be named before that is settled."
+        first = (
+            "Model and test disagree, and an error of the test is more probable than that it is as accurate as stated, unless what "
+            "is missing is in no library. No mechanism can be named before that is settled."
+        )
         beside = "What explains the data best beside such an error"
         return (first, *(() if found.field is None else field_sentences(found.field, beside)))
     if found.field is not None:

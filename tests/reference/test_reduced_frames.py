@@ -57,14 +57,15 @@ def test_softer_members_of_a_reduced_frame_beside_opensees(frame, left):
         assert said == pytest.approx(true, abs=0.05 * np.abs(true - 1).max() + 2e-5)
 
 
-def test_softer_columns_of_a_storey_beside_opensees(frame):
-    """With their mass, as by corrosion; no column is in two storeys. Of the modes up to two beyond the measured ones."""
+@pytest.mark.parametrize(("begin", "section"), [("the columns between", 0), ("the beams at", 1)])
+def test_softer_members_of_a_storey_beside_opensees(frame, begin, section):
+    """With their mass, as by corrosion; none is in two storeys. Of the modes up to two beyond the measured ones."""
     found, model, inputs, sound = frame
     recipes = registry()["member"].recipes(model, registry()["member"])
-    sites = [site for each in recipes if (site := each.site(each.grid[0])).text.startswith("the columns between")]
+    sites = [site for each in recipes if (site := each.site(each.grid[0])).text.startswith(begin)]
     storeys = {site.ids: site.text for site in sites if not site.text.endswith("its mass alike")}
-    columns = [n for n, s in enumerate(found.section) if s == 0]
-    assert sorted(number - 1 for ids in storeys for number in ids) == columns
+    numbers = [n for n, s in enumerate(found.section) if s == section]
+    assert sorted(number - 1 for ids in storeys for number in ids) == numbers
     for ids, text in list(storeys.items())[:2]:
         factors = {str(number - 1): [0.6, 0.6] for number in ids}
         true = opensees.modes(inputs | {"factors": factors}, 8)[0] / sound

@@ -87,9 +87,9 @@ CANDIDATE = Candidate(
     "lighter",
     "bars without what they carry",
     "mass-loss",
-    "a beam, a straight row of beams or rods, the columns of one storey, all members of one section or a named element set that "
-    "weigh less than modelled and are as stiff: a pipe or tank that is empty, a lining, cladding or ballast that is gone; of the "
-    "nonstructural_mass, or of the density where there is none",
+    "a beam, a straight row of beams or rods, the columns, braces or beams of one storey, all members of one section or a "
+    "named element set that weigh less than modelled and are as stiff: a pipe or tank that is empty, a lining, cladding or "
+    "ballast that is gone; of the nonstructural_mass, or of the density where there is none",
     recipes,
     why,
 )

@@ -1,4 +1,4 @@
-"""A member that is softer as a whole: a beam, a row of them, the columns of a storey, or all of one section.
+"""A member that is softer as a whole: a beam, a row of them, those of a storey, or all of one section.
 
 K - d K_e of all elements of a member, with M - d M_e of its section or without.
 """
@@ -11,9 +11,9 @@ CANDIDATE = Candidate(
     "member",
     "a softer member",
     "local-stiffness",
-    "a beam, a straight row of beams or rods, the columns of one storey, or all members of one section that are softer as a "
-    "whole than modelled, all of A, Iy, Iz and J by one factor, alone or with the mass of the section: a wrong section, corrosion, "
-    "a member that is missing",
+    "a beam, a straight row of beams or rods, the columns, braces or beams of one storey, or all members of one section "
+    "that are softer as a whole than modelled, all of A, Iy, Iz and J by one factor, alone or with the mass of the section: "
+    "a wrong section, corrosion, a member that is missing",
     of_members,
     members,
 )

@@ -1,4 +1,4 @@
-"""Members of a structure as its engineer sees them: alone, in a row through joints, columns of a storey, all of one section."""
+"""Members of a structure as its engineer sees them: alone, in a row through joints, those of a storey, all of one section."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -26,11 +26,12 @@ class Member:
 
 
 ONE, ROW, STOREY, ALIKE = "one", "row", "storey", "alike"
+COLUMNS, BRACES, BEAMS = "columns", "braces", "beams"
 _UPRIGHT, _LEVEL = 0.9, 1e-3  # height of a column over its length; of the height of the structure, within which levels are one
 
 
 def members(mesh: Mesh) -> list[Member]:
-    """All members, rows of them, columns of storeys and groups of one section, each once; the structure as a whole is none."""
+    """All members, rows of them, those of a storey and groups of one section, each once; the structure as a whole is none."""
     sets = [s for s, each in enumerate(mesh.elements) if each.type in _GROUPED]
     slender = [(s, i) for s in sets if mesh.elements[s].type in SLENDER for i in range(len(mesh.elements[s]))]
     ones, rows = _chains(mesh, slender)
@@ -39,7 +40,7 @@ def members(mesh: Mesh) -> list[Member]:
         for part in parts:
             single = len(part) == 1 and mesh.elements[part[0][0]].type != "beam"  # which losses of elements know
             if len(part) < total and not single:
-                found.setdefault(tuple(part), Member(kind, tuple(part), described(mesh, part, kind)))
+                found.setdefault(tuple(sorted(part)), Member(kind, tuple(part), described(mesh, part, kind)))
     return list(found.values())
 
 
@@ -125,15 +126,22 @@ def _alike(mesh: Mesh, sets: list[int]) -> Iterator[list[Element]]:
 
 
 def _storeys(mesh: Mesh, ones: list[list[Element]]) -> Iterator[list[Element]]:
-    """Columns between the same two levels, where there are several."""
+    """Columns between the same two levels; braces between them, and beams at one level, of one section: where there are several."""
     up = upward(mesh)
     height = float(np.ptp(mesh.coordinates[:, up])) or 1.0
-    found: dict[tuple[int, int], list[list[Element]]] = {}
+    found: dict[tuple, list[list[Element]]] = {}
     for part in ones:
-        ends = _box(mesh, part)
-        if ends[1, up] - ends[0, up] > _UPRIGHT * np.linalg.norm(ends[1] - ends[0]):
-            found.setdefault(tuple(np.rint(ends[:, up] / (_LEVEL * height)).astype(int).tolist()), []).append(part)
+        ends, kind = _box(mesh, part), _inclined(mesh, part)
+        levels = np.rint(ends[:, up] / (_LEVEL * height)).astype(int).tolist()
+        section = () if kind == COLUMNS else (_type(mesh, part[0]), _section(mesh.elements[part[0][0]], part[0][1]))
+        found.setdefault((kind, *levels, *section), []).append(part)
     yield from ([element for part in parts for element in part] for parts in found.values() if len(parts) > 1)
+
+
+def _inclined(mesh: Mesh, part: Sequence[Element]) -> str:
+    """Whether a member is one of COLUMNS, BRACES or BEAMS, by how it rises from its lower to its upper end."""
+    rise, along = (ends := np.ptp(_box(mesh, part), axis=0))[upward(mesh)], np.linalg.norm(ends)
+    return COLUMNS if rise > _UPRIGHT * along else BRACES if rise > (1 - _UPRIGHT) * along else BEAMS
 
 
 def upward(mesh: Mesh) -> int:
@@ -158,7 +166,9 @@ def described(mesh: Mesh, part: Sequence[Element], kind: str) -> Site:
         return Site("element", ids, None, f"{text}, alike")
     if kind == STOREY:
         up = upward(mesh)
-        between = " and ".join(f"{level:.4g}" for level in box[:, up].tolist())
-        return Site("element", ids, tuple(middle.tolist()), f"the columns between {'XYZ'[up]} = {between}")
+        kind = _inclined(mesh, part[:1])
+        levels = [f"{level:.4g}" for level in box[:, up].tolist()]
+        at = f"between {'XYZ'[up]} = {' and '.join(levels)}" if levels[0] != levels[1] else f"at {'XYZ'[up]} = {levels[0]}"
+        return Site("element", ids, tuple(middle.tolist()), f"the {kind} {at}")
     text = elements(ids) if kind == ONE else f"the row of {elements(ids)}"
     return Site("element", ids, tuple(middle.tolist()), text)
