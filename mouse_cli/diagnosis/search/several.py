@@ -85,6 +85,10 @@ def several(study: Study, singles: list[Fit], most: int, trusted: bool = True) -
         found, smaller, count = found + growing, smaller + growing, count + 1
     known = {key(one) for one in found}
     found += [one for one in alike if key(one) not in known and material(one, smaller + alike)]
+    largest = max((len(one.recipes) for one in found), default=0)
+    fewer = [one for one in smaller if len(one.recipes) < largest]
+    if not any(map(enough, found)) and not hopeful(fewer, found, largest + 1):
+        return found  # no exchange does more than one further mechanism would
     return replaced(found, _as_good(study, found, smaller))
 
 
