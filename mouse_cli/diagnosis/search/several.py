@@ -85,10 +85,6 @@ def several(study: Study, singles: list[Fit], most: int, trusted: bool = True) -
         found, smaller, count = found + growing, smaller + growing, count + 1
     known = {key(one) for one in found}
     found += [one for one in alike if key(one) not in known and material(one, smaller + alike)]
-    largest = max((len(one.recipes) for one in found), default=0)
-    fewer = [one for one in smaller if len(one.recipes) < largest]
-    if not any(map(enough, found)) and not hopeful(fewer, found, largest + 1):
-        return found  # no exchange does more than one further mechanism would
     return replaced(found, _as_good(study, found, smaller))
 
 
@@ -114,8 +110,13 @@ def _as_good(study: Study, found: list[Fit], smaller: list[Fit]) -> list[Fit]:
     """Sets that the data hardly tell from the best of `found`: each of its mechanisms replaced by whatever fits beside the others.
 
     Probabilities are shares among all that explain the data, so that those have to be known; one that is better is exchanged too.
-    As long as the best leaves too much the next one is, for two of its mechanisms may stand for others that need one another.
+    As long as the best leaves too much the next one is, for two of its mechanisms may stand for others that need one another. None
+    where one further mechanism would not do either: no exchange does more.
     """
+    largest = max((len(one.recipes) for one in found), default=0)
+    fewer = [one for one in smaller if len(one.recipes) < largest]
+    if not any(map(enough, found)) and not hopeful(fewer, found, largest + 1):
+        return []
     known, more, done = Found(), Found(), []
     for one in found:
         keep(known, one)
