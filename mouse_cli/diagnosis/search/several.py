@@ -115,7 +115,7 @@ def _as_good(study: Study, found: list[Fit], smaller: list[Fit]) -> list[Fit]:
     """
     largest = max((len(one.recipes) for one in found), default=0)
     fewer = [one for one in smaller if len(one.recipes) < largest]
-    if not any(map(enough, found)) and not hopeful(fewer, found, largest + 1):
+    if fewer and not any(map(enough, found)) and not hopeful(fewer, found, largest + 1):
         return []
     known, more, done = Found(), Found(), []
     for one in found:
