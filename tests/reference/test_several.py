@@ -19,7 +19,7 @@ from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.found import key, material
 from mouse_cli.diagnosis.search.moves import adequate
 from mouse_cli.diagnosis.search.rank import _log_prior
-from mouse_cli.diagnosis.search.several import _fewer, same_kind
+from mouse_cli.diagnosis.search.several import _exchangeable, _fewer, same_kind
 from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
@@ -355,3 +355,10 @@ def test_beside_one_that_is_not_refuted_no_sets_are_sought_that_promise_nothing(
     monkeypatch.setattr(search, "finished", lambda study, found: list(found.values()))
     assert search.several(SimpleNamespace(known=()), [single], 2) == []
     assert len(asked) == sought
+
+
+@pytest.mark.parametrize(("alone", "two", "may"), [(1000.0, 300.0, True), (10_000.0, 7_000.0, False)])
+def test_no_exchange_is_tried_where_one_more_mechanism_would_not_do(alone, two, may):
+    """Of 80 degrees of freedom: 300 (300 / 1000)^2 is noise, 7000 (7000 / 10000)^2 is none."""
+    of = lambda count, misfit: SimpleNamespace(recipes=(None,) * count, misfit=misfit, dof=80, bearable=1.5)
+    assert _exchangeable([of(2, two)], [of(1, alone)]) is may

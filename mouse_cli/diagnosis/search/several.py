@@ -85,7 +85,7 @@ def several(study: Study, singles: list[Fit], most: int, trusted: bool = True) -
         found, smaller, count = found + growing, smaller + growing, count + 1
     known = {key(one) for one in found}
     found += [one for one in alike if key(one) not in known and material(one, smaller + alike)]
-    return replaced(found, _as_good(study, found, smaller))
+    return replaced(found, _as_good(study, found, smaller) if _exchangeable(found, smaller) else [])
 
 
 def hopeful(fewer: list[Fit], sets: list[Fit], most: int) -> bool:
@@ -106,17 +106,19 @@ def _begun(sets: list[Fit]) -> list[Fit]:
     return best + [one for one in order[_GROWN:] if one.c.size < fewest][:1]
 
 
+def _exchangeable(found: list[Fit], smaller: list[Fit]) -> bool:
+    """Whether exchanges may make sets of `found` explain the data: none does more than one further mechanism would."""
+    largest = max((len(one.recipes) for one in found), default=0)
+    fewer = [one for one in smaller if len(one.recipes) < largest]
+    return any(map(enough, found)) or hopeful(fewer, found, largest + 1)
+
+
 def _as_good(study: Study, found: list[Fit], smaller: list[Fit]) -> list[Fit]:
     """Sets that the data hardly tell from the best of `found`: each of its mechanisms replaced by whatever fits beside the others.
 
     Probabilities are shares among all that explain the data, so that those have to be known; one that is better is exchanged too.
-    As long as the best leaves too much the next one is, for two of its mechanisms may stand for others that need one another. None
-    where one further mechanism would not do either: no exchange does more.
+    As long as the best leaves too much the next one is, for two of its mechanisms may stand for others that need one another.
     """
-    largest = max((len(one.recipes) for one in found), default=0)
-    fewer = [one for one in smaller if len(one.recipes) < largest]
-    if fewer and not any(map(enough, found)) and not hopeful(fewer, found, largest + 1):
-        return []
     known, more, done = Found(), Found(), []
     for one in found:
         keep(known, one)
