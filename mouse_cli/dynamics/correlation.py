@@ -67,7 +67,8 @@ def _with_double(macs: np.ndarray, test: np.ndarray, shapes: np.ndarray, hz: np.
         return macs
     macs, have = macs.copy(), np.isfinite(test)
     edges = np.flatnonzero(np.diff(np.concatenate([[0], close, [0]])))
-    for points in have[:, :1].T if have.all() else np.unique(have, axis=1).T:
+    where = have[:, :1] if have.all() else np.unique(have, axis=1)  # one factorisation for shapes measured at the same points
+    for points in where.T:
         alike = np.flatnonzero((have == points[:, None]).all(axis=0))
         Y = test[np.ix_(points, alike)]
         for first, last in edges.reshape(-1, 2):

@@ -29,10 +29,11 @@ def call(function: Callable[..., Any], *arguments: object) -> Any:
 
     Raises ValueError where it crashed the process, MemoryError where the system has killed it.
     """
+    request = os.getcwd(), function, arguments
     with _lock:
         server = _server()
         try:
-            pickle.dump((os.getcwd(), function, arguments), server.stdin, protocol=5)
+            pickle.dump(request, server.stdin, protocol=5)
             server.stdin.flush()
             kind, found = pickle.load(server.stdout)
         except (EOFError, OSError, pickle.UnpicklingError):

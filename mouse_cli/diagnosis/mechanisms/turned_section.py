@@ -11,8 +11,9 @@ CANDIDATE = Candidate(
     "turned-section",
     "a section turned by 90 degrees",
     "turned-section",
-    "a beam, a straight row of beams, all of one section or all beams whose second moments of area are exchanged: a mistake of the "
-    "model's orientation, or a profile mounted on its side; it has no size, K + K_e(Iz, Iy) - K_e(Iy, Iz)",
+    "a beam, a straight row of beams, those of one storey, all of one section or all beams whose second moments of area are "
+    "exchanged: a mistake of the model's orientation, or a profile mounted on its side; it has no size, "
+    "K + K_e(Iz, Iy) - K_e(Iy, Iz)",
     of_turned,
     oblong,
 )

@@ -27,7 +27,8 @@ class Member:
 
 ONE, ROW, STOREY, ALIKE = "one", "row", "storey", "alike"
 COLUMNS, BRACES, BEAMS = "columns", "braces", "beams"
-_UPRIGHT, _LEVEL = 0.9, 1e-3  # height of a column over its length; of the height of the structure, within which levels are one
+_UPRIGHT, _FLAT = 0.9, 0.1  # height of a column over its length, at least, and of a beam, at most
+_LEVEL = 1e-3  # of the height of the structure, within which levels are one
 
 
 def members(mesh: Mesh) -> list[Member]:
@@ -140,8 +141,9 @@ def _storeys(mesh: Mesh, ones: list[list[Element]]) -> Iterator[list[Element]]:
 
 def _inclined(mesh: Mesh, part: Sequence[Element]) -> str:
     """Whether a member is one of COLUMNS, BRACES or BEAMS, by how it rises from its lower to its upper end."""
-    rise, along = (ends := np.ptp(_box(mesh, part), axis=0))[upward(mesh)], np.linalg.norm(ends)
-    return COLUMNS if rise > _UPRIGHT * along else BRACES if rise > (1 - _UPRIGHT) * along else BEAMS
+    ends = np.ptp(_box(mesh, part), axis=0)
+    steep = ends[upward(mesh)] / max(float(np.linalg.norm(ends)), 1e-300)
+    return COLUMNS if steep > _UPRIGHT else BRACES if steep > _FLAT else BEAMS
 
 
 def upward(mesh: Mesh) -> int:
@@ -166,9 +168,8 @@ def described(mesh: Mesh, part: Sequence[Element], kind: str) -> Site:
         return Site("element", ids, None, f"{text}, alike")
     if kind == STOREY:
         up = upward(mesh)
-        kind = _inclined(mesh, part[:1])
-        levels = [f"{level:.4g}" for level in box[:, up].tolist()]
-        at = f"between {'XYZ'[up]} = {' and '.join(levels)}" if levels[0] != levels[1] else f"at {'XYZ'[up]} = {levels[0]}"
-        return Site("element", ids, tuple(middle.tolist()), f"the {kind} {at}")
+        levels = list(dict.fromkeys(f"{level:.4g}" for level in box[:, up].tolist()))
+        at = f"{'between' if len(levels) > 1 else 'at'} {'XYZ'[up]} = {' and '.join(levels)}"
+        return Site("element", ids, tuple(middle.tolist()), f"the {_inclined(mesh, part[:1])} {at}")
     text = elements(ids) if kind == ONE else f"the row of {elements(ids)}"
     return Site("element", ids, tuple(middle.tolist()), text)

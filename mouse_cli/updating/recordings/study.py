@@ -51,7 +51,7 @@ _SAMPLES = 8192  # of a record that the closed form looks at
 _PERIODS, _SHORTEST, _LONGEST = 10, 256, 1024  # of the first mode in a horizon; its samples
 _SEGMENTS = 10
 _ABOVE = 5.0  # highest mode of a large model, by the highest frequency of the response: what acts between sensors bends it too
-_BEHIND = 1.1  # times its cost, from which on a fit in shorter steps is another optimum
+_SAME = 1.1  # times its cost, up to which a fit in shorter steps is the same optimum
 _BEYOND = 0.75  # the same, by the sample rate at most
 
 
@@ -210,8 +210,8 @@ def finer(study: Study, one: Fit) -> Fit:
     """The fit with its sizes as steps of half the length leave them, whose error is a quarter; all else is as it was compared."""
     halved = copy(study)
     halved.data = [part.halved for part in study.data]
-    found = fitted(halved, Start(one.hypothesis, one.x, 0.0), _BEHIND * one.cost)
-    if found is None or found.cost > _BEHIND * one.cost:
+    found = fitted(halved, Start(one.hypothesis, one.x, 0.0), one.cost)
+    if found is None or found.cost > _SAME * one.cost:
         return one
     return replace(one, x=found.x, states=found.states, covariance=found.covariance)
 
