@@ -1,5 +1,7 @@
 """What deserves a look beside causes that are there: effects add to first order, and what is left out would not have been best."""
 
+from itertools import combinations
+
 import numpy as np
 import pytest
 
@@ -7,10 +9,12 @@ from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.search import study as searched
 from mouse_cli.diagnosis.search import superposed
+from mouse_cli.diagnosis.search.added_up import Effects
 from mouse_cli.diagnosis.search.descents import tried
 from mouse_cli.diagnosis.search.fit import fit
+from mouse_cli.diagnosis.search.moves import together
 from mouse_cli.diagnosis.search.study import Study
-from mouse_cli.diagnosis.search.superposed import KEPT, Alone, best_pairs, chosen
+from mouse_cli.diagnosis.search.superposed import KEPT, Alone, chosen
 from mouse_cli.dynamics.eigen import dense_solution
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter
@@ -49,50 +53,78 @@ def test_effects_add():
     assert sum(text == "1" for text, _ in found) == KEPT // 3
 
 
-def test_of_all_pairs_those_that_add_up_are_begun():
-    """Beside every pair the parameters of the deck adapt, here by least squares for each of them in turn."""
+@pytest.fixture
+def by_themselves():
+    """Ten places and sizes of each of two candidates, T of two parameters, and how far these follow."""
     rng = np.random.default_rng(5)
     none, T = 3 * rng.standard_normal(12), rng.standard_normal((12, 2))
     alone = {
         name: Alone([(f"{name}{i // 2}", i % 2) for i in range(10)], none + rng.standard_normal((10, 12)), none)
         for name in "ab"
     }
+    return alone, T, np.linalg.solve(T.T @ T + np.eye(2), np.hstack([T.T, -np.eye(2)]))
+
+
+@pytest.mark.parametrize("count", [2, 3])
+@pytest.mark.parametrize("kind", ["", "b"])
+def test_of_all_sets_those_that_add_up_best_lead(count, kind, by_themselves):
+    """Beside every set the parameters of the deck adapt, here by least squares for each of them in turn."""
+    alone, T, adapted = by_themselves
+    none = alone["a"].none
+    every = [(name, at, alone[name].residuals[i]) for name in "ab" if kind in ("", name) for i, at in enumerate(alone[name].at)]
     stacked = np.vstack([T, np.eye(2)])
+    left = {}
+    for some in combinations(every, count):
+        if len({(name, place) for name, (place, _), _ in some}) == count:  # two of one kind at one place are one
+            r = none + sum(residual - none for *_, residual in some)
+            cost = np.linalg.lstsq(stacked, np.concatenate([r, np.zeros(2)]), rcond=None)[1][0]
+            left[frozenset((name, at) for name, at, _ in some)] = cost
+    found = Effects(alone, T, adapted).sets(count, kind)
+    best = min(left, key=left.get)
+    assert frozenset(found[0][1]) == best
+    assert found[0][0] == pytest.approx(left[best], rel=1e-4)
+    assert [cost for cost, *_ in found] == sorted(cost for cost, *_ in found)
+    assert all(left[frozenset(members)] == pytest.approx(cost, rel=1e-4) for cost, members, _ in found)
 
-    def left(i, j):
-        r = alone["a"].residuals[i] + alone["b"].residuals[j] - none
-        return np.linalg.lstsq(stacked, np.concatenate([r, np.zeros(2)]), rcond=None)[1][0]
 
-    order = sorted((left(i, j), i, j) for i in range(10) for j in range(10))
-    adapted = np.linalg.solve(T.T @ T + np.eye(2), np.hstack([T.T, -np.eye(2)]))
-    found = best_pairs({name: alone[name] for name in "ab"}, ["a"], T, adapted, 10)
-    mixed = [(a[1], b[1]) for a, b in found if (a[0], b[0]) == ("a", "b")]
-    _, i, j = order[0]
-    assert mixed[0] == (alone["a"].at[i], alone["b"].at[j])
-    same = [(a[1][0], b[1][0]) for a, b in found if a[0] == b[0]]
-    assert same and all(a != b for a, b in same)  # two of one kind at one place are one
+def test_effects_beyond_all_measure_are_no_fault(by_themselves):
+    alone, T, adapted = by_themselves
+    alone["a"].residuals[3] *= 1e30
+    with np.errstate(over="raise", invalid="raise"):
+        found = Effects(alone, T, adapted).sets(2)
+    assert all(np.isfinite(cost) for cost, *_ in found)
+
+
+def looked_at(*names: str) -> Study:
+    """Of a chain with a mass and a spring too many, that has looked at these candidates."""
+    study = Study(chain_with({5: 0.4}, {16: 4e3}))
+    for name in names:
+        study.coarse.looks(name, np.zeros(study.k), ())
+    return study.coarse
 
 
 def test_two_that_hide_one_another_are_begun_together():
-    study = Study(chain_with({5: 0.4}, {16: 4e3}))
-    for name in ("mass", "ground-spring", "oscillator"):
-        study.coarse.looks(name, np.zeros(study.k), ())
-    begun = study.coarse.together(["mass"], 4)
-    assert ["6", "17"] in [[*(one.site(one.grid[0]).ids[0] for one in recipes)] for recipes, _ in begun]
+    begun = together(looked_at("mass", "ground-spring", "oscillator"), 2, 4)
+    assert ["6", "17"] in [sorted((one.site(one.grid[0]).ids[0] for one in recipes), key=int) for recipes, _ in begun]
     assert all(len(c) == sum(len(one.unknowns) for one in recipes) for recipes, c in begun)
+
+
+def test_sets_of_one_kind_are_of_that_kind_alone():
+    study = looked_at("mass", "ground-spring")
+    for count in (2, 3):
+        begun = together(study, count, 4, "mass")
+        assert begun and all([one.candidate.key for one in recipes] == ["mass"] * count for recipes, _ in begun)
+    assert together(study, 2, 4, "oscillator") == []
 
 
 def test_what_was_looked_at_at_several_places_together_only_is_in_no_pair():
     """As where all sizes at single places were passed over for several feet at once: the others pair without it."""
-    study = Study(chain_with({5: 0.4}, {16: 4e3}))
-    for name in ("mass", "ground-spring"):
-        study.coarse.looks(name, np.zeros(study.k), ())
-    before = [tuple(each.site(each.grid[0]).text for each in recipes) for recipes, _ in study.coarse.together(["mass"], 4)]
-    none = study.coarse.alone["mass"].none
-    study.coarse.alone["oscillator"] = Alone([("6 and 17", 0)], none[None, :] + 1, none)
-    for leading in (["mass"], ["oscillator", "mass"]):
-        after = [tuple(each.site(each.grid[0]).text for each in recipes) for recipes, _ in study.coarse.together(leading, 4)]
-        assert after == before != []
+    before = [tuple(each.site(each.grid[0]).text for each in recipes) for recipes, _ in together(looked_at("mass"), 2, 4)]
+    study = looked_at("mass")
+    none = study.alone["mass"].none
+    study.alone["oscillator"] = Alone([("6 and 17", 0)], none[None, :] + 1, none)
+    after = [tuple(each.site(each.grid[0]).text for each in recipes) for recipes, _ in together(study, 2, 4)]
+    assert after == before != []
 
 
 @pytest.mark.parametrize("name", ["ground-spring", "oscillator", "mass"])

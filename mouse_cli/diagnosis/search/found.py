@@ -1,6 +1,7 @@
 """Sets of mechanisms that a search has found, the best fit of each, and what it has tried."""
 
 from collections import Counter
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -19,8 +20,8 @@ def key(one: Fit) -> tuple[str, ...]:
 class Found(dict[tuple[str, ...], Fit]):
     """The best fit of each set of candidates; what was tried beside what is there already is not tried again."""
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, known: Mapping[tuple[str, ...], Fit] | None = None) -> None:
+        super().__init__(known or {})
         self._tried: list[tuple[str, Fit]] = []
 
     def untried(self, first: Fit, names: list[str]) -> list[str]:
@@ -31,7 +32,7 @@ class Found(dict[tuple[str, ...], Fit]):
         return new
 
 
-def best_of(found: Found, count: int) -> list[Fit]:
+def best_of(found: Mapping[tuple[str, ...], Fit], count: int) -> list[Fit]:
     """The best of them."""
     return sorted(found.values(), key=lambda one: -one.log_evidence)[:count]
 

@@ -1,9 +1,10 @@
 """What is done to a set of mechanisms: one more is put beside it, one is taken out or exchanged, and it is fitted to the end."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 
+from mouse_cli.diagnosis.effects.change import Recipe
 from mouse_cli.diagnosis.search.descents import settled, summed
 from mouse_cli.diagnosis.search.escape import shifted, tied, walked
 from mouse_cli.diagnosis.search.fit import Fit, fit
@@ -12,15 +13,19 @@ from mouse_cli.diagnosis.search.optima import NEAR, within
 from mouse_cli.diagnosis.search.pared import pared
 from mouse_cli.diagnosis.search.parts import Beside, in_turn, look_beside, partner
 from mouse_cli.diagnosis.search.study import Study
+from mouse_cli.diagnosis.search.superposed import text
 from mouse_cli.updating.chi_square import upper_tail
 
 SECOND, QUICK = 2, 8  # fits of a further mechanism beside others, and their steps, in a first try
 FAR_OF_SETS = 100.0  # as FAR, of sets: many are tried, and brief descents say enough of them
 REACH = 6.0  # log evidence below that of the best from which on a set that is fitted in few steps is no rival of it
 ADEQUATE = 0.05  # p-value of the misfit below which what is left is no noise
-_PARTNERS = 6  # candidates that a first look finds best beside others, which alone are fitted
+_LESS = 2.0  # times the misfit that a mechanism promises, from which on another that promises more is no alias of it
+_LOOKED = 16  # candidates that promise most beside others, which alone are looked at
+_PARTNERS = 6  # of these those that a first look finds best, which alone are fitted
 _FINISHED = 6  # sets that are fitted to the end
 _ROUNDS = 3  # of exchanges
+_TOGETHER = 16  # sets that are begun where effects add up best
 _LIMITS = (  # groups of which one is the other at an end of its range: a crack at a clamp, an item on a stiff or a soft mount
     {"local-stiffness", "support"},
     {"mass", "oscillator"},
@@ -38,10 +43,29 @@ def promised(before: Fit, after: Fit, steps: float) -> float:
     return after.misfit * min(1.0, after.misfit / max(before.misfit, 1e-300)) ** (2 * steps)
 
 
-def finished(study: Study, found: Found) -> list[Fit]:
+def finished(study: Study, found: Mapping[tuple[str, ...], Fit]) -> list[Fit]:
     """The best fitted to the end, their evidence summed over sites that are as good."""
     ended = [settled(walked(shifted(pared(one, study)), study), study) for one in best_of(found, _FINISHED)]
     return [summed([one, *tied(one, study)]) for one in ended]
+
+
+def added_up(study: Study, count: int, found: Found, smaller: list[Fit], kind: str = "", most: int = _TOGETHER) -> None:
+    """Into `found` the `most` sets of `count` mechanisms whose effects add up best, all of candidate `kind` if it is given: each
+    alone may be nowhere near its place.
+    """
+    for recipes, c in together(study.coarse, count, most, kind):
+        model = study.kind(study.model, study.own(recipes))
+        keep(found, fit(model, c, np.zeros(study.k), QUICK, within([*smaller, *found.values()], FAR_OF_SETS)))
+
+
+def together(study: Study, count: int, most: int, kind: str = "") -> list[tuple[tuple[Recipe, ...], np.ndarray]]:
+    """Those sets and their coordinates, in a study that has looked at all candidates by themselves."""
+    made = []
+    for _, members, _ in study.effects.sets(count, kind)[:most]:
+        recipes = [next(each for each in study.recipes(name) if text(each) == place) for name, (place, _) in members]
+        starts = [recipe.coordinates(recipe.grid[i]) for recipe, (_, (_, i)) in zip(recipes, members, strict=True)]
+        made.append((tuple(recipes), np.concatenate(starts)))
+    return made
 
 
 def swap(study: Study, one: Fit, found: Found) -> None:
@@ -55,7 +79,14 @@ def swap(study: Study, one: Fit, found: Found) -> None:
         aliases = [name for name, each in study.known.items() if each.group in alike and (moved or name != own.key)]
         rest = without(one, i)
         if rest is not None and aliases:
-            beside(study, rest, aliases, found)
+            beside(study, rest, _as_promising(study, rest, own.key, aliases), found)
+
+
+def _as_promising(study: Study, rest: Fit, name: str, aliases: list[str]) -> list[str]:
+    """Those of `aliases` that promise beside `rest` not much less than candidate `name` does, where effects add up."""
+    coarse = study.about(rest).coarse
+    promise = {each: coarse.promise(each, rest.point.x, rest.recipes) for each in {name, *aliases}}
+    return [each for each in aliases if not promise[each] > _LESS * max(promise[name], rest.dof)]
 
 
 def beside(study: Study, first: Fit, partners: Iterable[str], found: Found) -> None:
@@ -76,10 +107,12 @@ def beside(study: Study, first: Fit, partners: Iterable[str], found: Found) -> N
 
 
 def _promising(study: Study, there: Study, first: Fit, partners: list[str]) -> list[str]:
-    """Those of `partners` that a first look beside `first` finds best."""
+    """Those of `partners` that a first look beside `first` finds best, of such as promise most where effects add up."""
     if len(partners) <= _PARTNERS:
         return partners
     coarse, causes, looks = there.coarse, Beside.of(first, there), {}
+    promise = {name: coarse.promise(name, first.point.x, first.recipes) for name in partners}
+    partners = sorted(partners, key=promise.__getitem__)[:_LOOKED]
 
     def accept(i: int, seen: list) -> None:
         looks[partners[i]] = seen

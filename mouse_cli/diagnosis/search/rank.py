@@ -20,6 +20,7 @@ from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.nameless.fit import rivals
 from mouse_cli.diagnosis.nameless.joint import joint_rivals
 from mouse_cli.diagnosis.noise import scale
+from mouse_cli.diagnosis.search.alone import alone
 from mouse_cli.diagnosis.search.descents import settled
 from mouse_cli.diagnosis.search.disguised import disguised
 from mouse_cli.diagnosis.search.fit import Fit, fit
@@ -28,11 +29,9 @@ from mouse_cli.diagnosis.search.levelled import levelled
 from mouse_cli.diagnosis.search.moves import adequate
 from mouse_cli.diagnosis.search.optima import within
 from mouse_cli.diagnosis.search.pared import plainest
-from mouse_cli.diagnosis.search.parts import in_turn, promising, single
 from mouse_cli.diagnosis.search.pool import Pool
 from mouse_cli.diagnosis.search.several import FURTHER, enough, plain, several
 from mouse_cli.diagnosis.search.study import Study
-from mouse_cli.diagnosis.validate.placed import led
 from mouse_cli.model.diagnosis import LAW, Untried
 from mouse_cli.model.groups import joined, shares
 from mouse_cli.model.problem import Problem
@@ -49,7 +48,6 @@ _ENTRY = 0.99  # probability of one wrong entry of the test from which on nothin
 _IDLE = 0.5
 _SIZES = ("support", "taper")  # groups that have more than one size and yet no place that these could move
 _BY_SIZE = ("mass", "oscillator")  # groups whose stiffness at their place follows the frequency by few sizes
-_FOLLOWING = 25.0  # ln of odds behind the best mechanism up to which its places are told apart by what is held out
 _PLAIN = 2  # mechanisms up to which a set that explains the data needs no two rivals without a name beside it
 
 
@@ -184,15 +182,7 @@ def _ranked(study: Study, causes: int, by_all: Callable[[Ranking], Ranking], las
     """The same, of a study."""
     model, kind = study.model, study.kind
     baseline = settled(fit(kind(model), np.zeros(0)), study)
-    singles: list[Fit] = []
-    in_turn(
-        study,
-        single,
-        [(name,) for name in promising(study)],
-        lambda _, one: singles.extend([] if one is None else [one]),
-        lambda _: within([baseline, *singles]),
-    )
-    singles = [led(one) if _matters(one, baseline, singles) else one for one in singles]
+    singles, begun = alone(study, baseline, causes)
     fits = [baseline, *singles]
     found = by_all(ranking(baseline, fits))
     none = dict(found.groups).get("none", 0.0)
@@ -200,11 +190,11 @@ def _ranked(study: Study, causes: int, by_all: Callable[[Ranking], Ranking], las
     if none > _IDLE and entry > _ENTRY and found.noise_scale <= NOISY:
         return replace(found, untried=_untried(study, singles))
     if last and (none < _IDLE or not adequate(found.baseline, gates.GATE)):
-        fits += rivals(model, baseline, kind, within(fits))
-    alone = plain(one for one in found.fits if one.recipes)
-    if causes > 1 and len(found.fits) > 1 and not any(enough(one, FURTHER, gates.GATE) for one in alone):
+        fits += rivals(model, baseline, kind, within([*fits, *begun.values()]))
+    one_each = plain(one for one in found.fits if one.recipes)
+    if causes > 1 and len(found.fits) > 1 and not any(enough(one, FURTHER, gates.GATE) for one in one_each):
         trusted = found.stated[0] > _TRUSTED or found.noise_scale > _LOUD
-        fits += several(study, singles, causes, trusted)
+        fits += several(study, singles, causes, trusted, begun)
     others = model.problem.frf or model.problem.recordings  # which may feel what modes do not
     if kind is Model and not others and any(one.nameless for one in fits) and not any(map(_simple, fits)):
         fits += joint_rivals(model, fits)
@@ -212,12 +202,6 @@ def _ranked(study: Study, causes: int, by_all: Callable[[Ranking], Ranking], las
     if len(fits) > 1 + len(singles) or len(kept) < len(fits):
         found = by_all(ranking(baseline, kept))
     return replace(found, untried=_untried(study, singles))
-
-
-def _matters(one: Fit, baseline: Fit, singles: list[Fit]) -> bool:
-    """Whether a mechanism says more than none, and is so near the best that what is held out may make it that."""
-    best = max(each.log_evidence for each in singles)
-    return one.log_evidence > max(baseline.log_evidence + gates.ODDS, best - _FOLLOWING)
 
 
 def explains(one: Fit) -> bool:

@@ -10,13 +10,13 @@ import numpy as np
 
 from mouse_cli.diagnosis.gates import GATE
 from mouse_cli.diagnosis.search.alike import same_kind
-from mouse_cli.diagnosis.search.fit import MOST, Fit, fit
+from mouse_cli.diagnosis.search.fit import MOST, Fit
 from mouse_cli.diagnosis.search.found import Found, best_of, keep, key, material, replaced
 from mouse_cli.diagnosis.search.moves import (
     ADEQUATE,
     FAR_OF_SETS,
-    QUICK,
     REACH,
+    added_up,
     adequate,
     beside,
     exchanged,
@@ -32,7 +32,6 @@ from mouse_cli.diagnosis.validate.held_out import held_out_density
 FURTHER = 0.2  # p-value of the best set below which a larger one may gain what its prior takes, some ten nats
 _SWAPPED = 4  # pairs whose aliases are tried
 _PAIRED, _WIDE = 8, 5  # candidates that are tried in pairs; groups of which the best is tried with every candidate
-_TOGETHER = 16  # pairs that are begun where effects add up best
 _ROUNDS = 3  # of aliases
 _GROWN = 2  # sets that grow further
 _EXCHANGED = 3  # sets whose mechanisms are exchanged to see what is as good
@@ -49,11 +48,12 @@ def enough(one: Fit, least: float = ADEQUATE, held: float = ADEQUATE) -> bool:
     return adequate(one, least) and ((rest := held_out_density(one)) is None or rest.p > held)
 
 
-def several(study: Study, singles: list[Fit], most: int, trusted: bool = True) -> list[Fit]:
+def several(study: Study, singles: list[Fit], most: int, trusted: bool = True, begun: Found | None = None) -> list[Fit]:
     """Sets of two mechanisms, and of more up to `most` as long as every set leaves more than noise, and the best gains.
 
     Where one alone is not refuted (GATE), by what the deck holds out neither, sets are sought only beside those that come near it,
     and further if one of them gains.
+    begun: sets that were, see `alone`.
     trusted: whether what one alone leaves says that the test is as accurate as stated; else a pair that leaves no more has to.
     """
     alone = plain(singles)
@@ -62,14 +62,17 @@ def several(study: Study, singles: list[Fit], most: int, trusted: bool = True) -
     ):
         return []
     singles = singles + [one for one in alone if not any(one is other for other in singles)]
-    found = pairs(study, singles)
+    begun = Found() if begun is None else begun
+    found = pairs(study, singles, begun)
     smaller, growing = singles + found, found
     most = most if trusted or any(map(adequate, found)) else min(most, 2)
     of_kind = (trusted and most > 2) or not any(map(enough, found))
-    alike = same_kind(study, singles, most, smaller) if of_kind else []
+    alike = same_kind(study, singles, most, [*smaller, *begun.values()], begun) if of_kind else []
     count, before = 3, alone
-    while count <= most and not any(enough(one, FURTHER) for one in growing) and hopeful(before, growing, most):
+    explains = lambda one: len(one.recipes) <= count and enough(one, FURTHER)
+    while count <= most and not any(map(explains, growing + alike)) and hopeful(before, growing, most):
         larger = Found()
+        added_up(study, count, larger, growing)
         for one in _begun(growing):
             beside(study, one, study.known, larger)
         for best in best_of(larger, 1):
@@ -152,32 +155,38 @@ def _gains(study: Study, singles: list[Fit]) -> bool:
     return False
 
 
-def pairs(study: Study, singles: list[Fit]) -> list[Fit]:
+def pairs(study: Study, singles: list[Fit], begun: Found) -> list[Fit]:
     """Two: the leading ones of different groups with the best partners, the leading ones with one another, and aliases.
 
-    All are tried in few steps; those that lead are fitted to the end.
+    All are tried in few steps; those that lead are fitted to the end. begun: sets of any size, beside which they have to matter.
     """
     leading = sorted(singles, key=lambda one: -one.log_evidence)[:_PAIRED]
     firsts = {
         (one.recipes[0].candidate.group, len(key(one)) > 1): one for one in reversed(leading)
     }  # the best of each group
     wide = sorted(firsts.values(), key=lambda one: -one.log_evidence)[:_WIDE]
-    found, names = Found(), [one.recipes[0].candidate.key for one in leading]
+    names = [one.recipes[0].candidate.key for one in leading]
+    found = Found(begun)
+    if not found:
+        added_up(study, 2, found, singles)
     for first in leading:
         any_of = any(first is one for one in wide)
         beside(study, first, study.known if any_of else names, found)
-    for recipes, c in study.coarse.together(names, _TOGETHER):  # either alone may be nowhere near its place
-        model = study.kind(study.model, study.own(recipes))
-        keep(found, fit(model, c, np.zeros(study.k), QUICK, within([*singles, *found.values()], FAR_OF_SETS)))
     done: list[Fit] = []
     for _ in range(_ROUNDS):  # both may be there by an alias, or at a wrong site
-        for two in best_of(found, _SWAPPED):
+        for two in best_of(_of_two(found, near=True), _SWAPPED):
             if not any(two is one for one in done):
                 done.append(two)
                 swap(study, two, found)
-    for two in best_of(found, 1):  # the mechanism that leads with a partner may be none of those that lead alone
+    for two in best_of(_of_two(found, near=True), 1):  # what leads with a partner may be none of those that lead alone
         keep(found, exchanged(study, two))
-    return [two for two in finished(study, found) if material(two, singles)]
+    return [two for two in finished(study, _of_two(found)) if material(two, singles)]
+
+
+def _of_two(found: Found, near: bool = False) -> dict[tuple[str, ...], Fit]:
+    """Those of two mechanisms; near: that may rival the best of all."""
+    reach = within(found.values(), FAR_OF_SETS) if near and found else np.inf
+    return {name: one for name, one in found.items() if len(one.recipes) == 2 and one.misfit <= reach}
 
 
 def _fewer(study: Study, sets: list[Fit], smaller: list[Fit]) -> list[Fit]:

@@ -15,10 +15,11 @@ from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate, registry
+from mouse_cli.diagnosis.search.added_up import Effects
 from mouse_cli.diagnosis.search.fit import Fit, descended
 from mouse_cli.diagnosis.search.optima import BEYOND
 from mouse_cli.diagnosis.search.starts import Led, cost, leading, spread, surrounding
-from mouse_cli.diagnosis.search.superposed import KEPT, Alone, best_pairs, by_itself, chosen, text
+from mouse_cli.diagnosis.search.superposed import KEPT, Alone, by_itself, chosen, promised, text
 from mouse_cli.dynamics.eigen import IndefiniteError
 from mouse_cli.updating.chi_square import upper_tail
 
@@ -75,6 +76,13 @@ class Study:
             return self
         return Study(model, self.known, self.kind, None if self.begun is self else self.begun.coarse)
 
+    @cached_property
+    def effects(self) -> Effects:
+        """What all do by themselves, of one place each; asked for when all were looked at."""
+        single = {name: {text(each) for each in self.recipes(name) if len(each.parts) < 2} for name in self.alone}
+        alone = {name: own for name, one in self.alone.items() if (own := one.of(single[name])).at}
+        return Effects(alone, *self._adapted(np.zeros(self.k), ()))
+
     def looks(self, name: str, before: np.ndarray, beside: tuple[Recipe, ...]) -> list[tuple[float, int, np.ndarray]]:
         """Misfits to be expected, numbers of recipes of candidate `name`, and x to begin from, the most promising first; kept."""
         others = self.own(beside)
@@ -89,18 +97,6 @@ class Study:
             if none is not None and name not in self.alone:
                 self.alone[name] = by_itself(seen, none.residual)
         return self._looked[key]
-
-    def together(self, leading: list[str], most: int) -> list[tuple[tuple[Recipe, ...], np.ndarray]]:
-        """The `most` pairs that promise most where effects add up, each one of `leading` and any other, and their coordinates."""
-        known = {name: {text(each): each for each in self.recipes(name) if len(each.parts) < 2} for name in self.alone}
-        alone = {name: own for name, one in self.alone.items() if (own := one.of(known[name])).at}
-        own = [name for name in leading if name in alone]
-        pairs = best_pairs(alone, own, *self._adapted(np.zeros(self.k), ()), most)
-        made = [[(known[name][place], i) for name, (place, i) in two] for two in pairs]
-        return [
-            (tuple(recipe for recipe, _ in two), np.concatenate([each.coordinates(each.grid[i]) for each, i in two]))
-            for two in made
-        ]
 
     def keep(self, name: str, looks: list[tuple[float, int, np.ndarray]], alone: Alone | None) -> None:
         """Looks at a candidate by itself, and what it does there, found by another process."""
@@ -132,15 +128,23 @@ class Study:
         if not others:
             alone = None if before.any() else self._glimpsed(name)
             return None if few or alone is None else chosen(alone, alone.none, before, *self._adapted(before, ()))
-        if few:
-            return None
+        given = None if few else self._there(name, before, others)
+        return None if given is None else chosen(*given)
+
+    def promise(self, name: str, before: np.ndarray, others: tuple[Recipe, ...]) -> float:
+        """The misfit that candidate `name` promises beside `others` where effects add up; -inf: that is not known."""
+        given = self._there(name, before, self.own(others))
+        return -np.inf if given is None else float(promised(*given).min())
+
+    def _there(self, name: str, before: np.ndarray, others: tuple[Recipe, ...]) -> tuple | None:
+        """What `promised` asks for, of candidate `name` beside `others`; None without a look at it by itself."""
         self.begun.looks(name, np.zeros(self.k), ())
         trial, alone = self.kind(self.model, others), self.begun.alone.get(name)
         at = trial.point(before)
         if at is None or alone is None:
             return None
         left = trial.glimpsed(before) if alone.glimpsed else at.residual
-        return chosen(alone, left, before[: self.k], *self._adapted(before, others))
+        return None if left is None else (alone, left, before[: self.k], *self._adapted(before, others))
 
     def _glimpsed(self, name: str) -> Alone | None:
         """What a candidate does by itself where modes are close, whose angles cost more to find than the modes; None: none are."""
