@@ -14,6 +14,7 @@ from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.diagnosis.search import moves
 from mouse_cli.diagnosis.search import several as search
+from mouse_cli.diagnosis.search.added_up import Effects
 from mouse_cli.diagnosis.search.descents import best
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.found import key, material
@@ -144,7 +145,7 @@ def test_beside_two_feet_of_own_sizes_sets_are_sought_where_one_foot_is_refuted(
     foot = lambda misfit: SimpleNamespace(misfit=misfit, dof=100, elsewhere=(), **vars(of(-misfit, "foot")))
     one, two, asked = foot(200.0), foot(90.0), []
     two.recipes[0].parts, two.elsewhere = ("1RZ", "23RZ"), ((one, 1e-9),)
-    monkeypatch.setattr(search, "pairs", lambda study, singles: asked.extend(singles) or [])
+    monkeypatch.setattr(search, "pairs", lambda study, singles, *_: asked.extend(singles) or [])
     monkeypatch.setattr(search, "same_kind", lambda *given: [])
     search.several(SimpleNamespace(known=()), [two], 2)
     assert asked == [two, one]
@@ -169,7 +170,7 @@ def test_a_pair_is_exchanged_that_leads_by_a_mechanism_which_is_none_of_it(monke
         for module in (search, moves):
             monkeypatch.setattr(module, name, stub)
     monkeypatch.setattr(search, "finished", lambda study, found: list(found.values()))
-    study = SimpleNamespace(known=(*names, "c"), coarse=SimpleNamespace(together=lambda *given: []))
+    study = SimpleNamespace(known=(*names, "c"), coarse=SimpleNamespace(effects=Effects({}, np.zeros((1, 0)), np.zeros((0, 1)))))
     assert max(search.pairs(study, singles), key=lambda one: one.log_evidence).log_evidence == -50.0
 
 
@@ -246,9 +247,10 @@ def test_a_pair_that_does_not_predict_what_is_held_out_is_not_enough(monkeypatch
     pair = SimpleNamespace(misfit=20.0, dof=20, **vars(of(-40.0, "mass", "support")))
     single, asked = SimpleNamespace(misfit=90.0, dof=20, elsewhere=(), **vars(of(-90.0, "mass"))), []
     monkeypatch.setattr(search, "held_out_density", lambda one: None if p is None else SimpleNamespace(p=p))
-    monkeypatch.setattr(search, "pairs", lambda study, singles: [pair])
+    monkeypatch.setattr(search, "pairs", lambda study, singles, *_: [pair])
     monkeypatch.setattr(search, "same_kind", lambda *given: [])
     monkeypatch.setattr(search, "_as_good", lambda *given: [])
+    monkeypatch.setattr(search, "added_up", lambda *given: None)
     monkeypatch.setattr(search, "beside", lambda study, first, partners, found: asked.append(first))
     assert search.several(SimpleNamespace(known=()), [single], 3) == [pair]
     assert asked == [pair] * sought
@@ -269,9 +271,10 @@ def test_a_pair_that_leaves_noise_shows_that_the_test_is_as_accurate_as_stated(m
     pair = SimpleNamespace(misfit=misfit, dof=20, **vars(of(-40.0, "mass", "support")))
     single, asked = SimpleNamespace(misfit=90.0, dof=20, elsewhere=(), **vars(of(-90.0, "mass"))), []
     monkeypatch.setattr(search, "held_out_density", lambda one: SimpleNamespace(p=1e-5))
-    monkeypatch.setattr(search, "pairs", lambda study, singles: [pair])
+    monkeypatch.setattr(search, "pairs", lambda study, singles, *_: [pair])
     monkeypatch.setattr(search, "same_kind", lambda *given: [])
     monkeypatch.setattr(search, "_as_good", lambda *given: [])
+    monkeypatch.setattr(search, "added_up", lambda *given: None)
     monkeypatch.setattr(search, "beside", lambda study, first, partners, found: asked.append(first))
     search.several(SimpleNamespace(known=()), [single], 3, trusted)
     assert len(asked) == sought
@@ -350,7 +353,7 @@ def test_beside_one_that_is_not_refuted_no_sets_are_sought_that_promise_nothing(
         {("a", "b"): SimpleNamespace(log_evidence=first.log_evidence + gain, recipes=[cause("a"), cause("b")])}
     )
     monkeypatch.setattr(search, "beside", beside)
-    monkeypatch.setattr(search, "pairs", lambda study, singles: asked.append(1) or [])
+    monkeypatch.setattr(search, "pairs", lambda study, singles, *_: asked.append(1) or [])
     monkeypatch.setattr(search, "same_kind", lambda *given: [])
     monkeypatch.setattr(search, "finished", lambda study, found: list(found.values()))
     assert search.several(SimpleNamespace(known=()), [single], 2) == []

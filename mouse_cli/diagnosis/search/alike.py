@@ -8,7 +8,6 @@ from mouse_cli.diagnosis.gates import GATE, MATERIAL
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.found import Found, keep
 from mouse_cli.diagnosis.search.moves import (
-    FAR_OF_SETS,
     QUICK,
     REACH,
     SECOND,
@@ -24,13 +23,17 @@ from mouse_cli.diagnosis.search.study import Study
 _LEADING, _PROMISING = 2, 3  # kinds of which several are tried: those that lead alone, and of the others those that promise most
 
 
-def same_kind(study: Study, singles: list[Fit], most: int, known: Iterable[Fit], begun: Found) -> list[Fit]:
+def same_kind(
+    study: Study, singles: list[Fit], most: int, known: Iterable[Fit] = (), begun: Found | None = None
+) -> list[Fit]:
     """Two and more of one kind at different sites, each moved in turn to where it fits best, as far as they may rival `known`.
 
     begun: sets of one kind, among others, from which they may go on.
     """
-    found, best = Found(), max(known, key=lambda one: one.log_evidence, default=None)
+    found, begun = Found(), Found(begun)
+    known = [*known, *begun.values()]
     for one in _kinds(study, singles, begun):
+        best = max([*known, *found.values()], key=lambda one: one.log_evidence, default=None)
         if not _grown(study, one, most, found, best, begun) and not adequate(one):
             for other in _elsewhere(study, one):  # beside all feet of a frame no foot of it can be flexible once more
                 _grown(study, other, most, found, best, begun)
@@ -38,14 +41,14 @@ def same_kind(study: Study, singles: list[Fit], most: int, known: Iterable[Fit],
 
 
 def _kinds(study: Study, singles: list[Fit], begun: Found) -> list[Fit]:
-    """Kinds of which several may be: those that lead alone, and those of which `begun` has the best sets."""
+    """Kinds of which several may be: those of which `begun` has the best sets, and those that lead alone."""
     order = sorted(singles, key=lambda one: -one.log_evidence)
     able = [one for one in order if len(study.recipes(one.recipes[0].candidate.key)) > 1 and one.c.size]
     best = sorted(begun.items(), key=lambda item: item[1].log_evidence)
     reach = {names[0]: one.log_evidence for names, one in best if len(set(names)) == 1}
     rest = [one for one in able[_LEADING:] if one.recipes[0].candidate.key in reach]
     rest = sorted(rest, key=lambda one: -reach[one.recipes[0].candidate.key])
-    return able[:_LEADING] + (rest or able[_LEADING:])[:_PROMISING]
+    return rest[:_PROMISING] + able[: _LEADING if rest else _LEADING + _PROMISING]
 
 
 def _grown(study: Study, one: Fit, most: int, found: Found, best: Fit | None, begun: Found) -> bool:
@@ -77,7 +80,7 @@ def _may_rival(one: Fit, larger: Fit, most: int, best: Fit) -> bool:
     """
     least = promised(one, larger, most - len(larger.recipes) + 1)
     if not adequate(best, GATE):
-        return least < within([best], FAR_OF_SETS)
+        return least < within([best])
     size = lambda fit: fit.log_evidence + 0.5 * fit.misfit  # what its unknowns cost
     return size(larger) - size(best) - 0.5 * (least - best.misfit) > -REACH
 

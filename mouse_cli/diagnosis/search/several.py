@@ -53,8 +53,7 @@ def several(study: Study, singles: list[Fit], most: int, trusted: bool = True, b
 
     Where one alone is not refuted (GATE), by what the deck holds out neither, sets are sought only beside those that come near it,
     and further if one of them gains.
-    begun: sets that were, see `alone`.
-    trusted: whether what one alone leaves says that the test is as accurate as stated; else a pair that leaves no more has to.
+    trusted: whether what one alone leaves says that the test is as accurate as stated; else a pair has to. begun: see `alone`.
     """
     alone = plain(singles)
     if any(enough(one, GATE, GATE) for one in alone) and not _gains(
@@ -62,12 +61,11 @@ def several(study: Study, singles: list[Fit], most: int, trusted: bool = True, b
     ):
         return []
     singles = singles + [one for one in alone if not any(one is other for other in singles)]
-    begun = Found() if begun is None else begun
     found = pairs(study, singles, begun)
     smaller, growing = singles + found, found
     most = most if trusted or any(map(adequate, found)) else min(most, 2)
     of_kind = (trusted and most > 2) or not any(map(enough, found))
-    alike = same_kind(study, singles, most, [*smaller, *begun.values()], begun) if of_kind else []
+    alike = same_kind(study, singles, most, smaller, begun) if of_kind else []
     count, before = 3, alone
     explains = lambda one: len(one.recipes) <= count and enough(one, FURTHER)
     while count <= most and not any(map(explains, growing + alike)) and hopeful(before, growing, most):
@@ -155,7 +153,7 @@ def _gains(study: Study, singles: list[Fit]) -> bool:
     return False
 
 
-def pairs(study: Study, singles: list[Fit], begun: Found) -> list[Fit]:
+def pairs(study: Study, singles: list[Fit], begun: Found | None = None) -> list[Fit]:
     """Two: the leading ones of different groups with the best partners, the leading ones with one another, and aliases.
 
     All are tried in few steps; those that lead are fitted to the end. begun: sets of any size, beside which they have to matter.
