@@ -27,6 +27,8 @@ LONG: dict[str, tuple[str, ...]] = {
     ),
     "benchmarks_blind/test_space.py": (
         "test_decks_of_controls_are_the_truth_and_others_say_nothing", "test_a_brace_is_found_among_many_pairs",
+        "test_feet_that_are_nearly_pinned_each_its_own_way_are_one_mechanism[feet0]",
+        "test_feet_that_are_nearly_pinned_each_its_own_way_are_one_mechanism[feet2]",
     ),
     "benchmarks_fuzz/test_fuzz.py": ("test_what_counts[slow-<lambda>]",),
     "benchmarks_mutants/test_mutants.py": ("test_one_that_changes_nothing_is_alive",),

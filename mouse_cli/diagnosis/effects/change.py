@@ -138,7 +138,7 @@ class Recipe:
     along, which other causes see. law: how its spring loses energy, see `frf/lossy.py`.
     limit(values): group that it cannot be told from at such values, the end of their range; empty: none, its candidate's own.
     jumps: coordinates, in order, at which the matrices jump, by number of the unknown; there the piece after it begins.
-    parts: names of several things, each with the unknown of the same number, of which there are recipes with fewer; empty: none.
+    parts: names of several things, each with as many of the unknowns in turn, of which there are recipes with fewer; empty: none.
     linear: number of an unknown to which all that it adds is proportional; None: there is none.
     home: the model that it was made for. grows: how K and M that it adds grow with each parameter of the deck (p,), over what they
     are at those of its model; None: they do not.

@@ -71,14 +71,13 @@ def support_site(problem: Problem, held: Sequence[Held], alike: bool = True) -> 
 
 
 def stiffness_name(problem: Problem, sets: list[list[Held]], i: int) -> str:
-    """What the stiffness of a set is called: one of several by its direction, or by its node."""
+    """What the stiffness of a set is called: one of several by its node, its direction, or both."""
     if len(sets) == 1:
         return "stiffness of the support"
     node, d = sets[i][0]
-    one_direction = len({d for held in sets for _, d in held}) == 1
-    return "stiffness of the support" + (
-        f" of node {problem.mesh.node_ids[node]}" if one_direction else f", {DIRECTIONS[d]}"
-    )
+    by_node = f" of node {problem.mesh.node_ids[node]}" if len({tuple(n for n, _ in held) for held in sets}) > 1 else ""
+    by_direction = f", {DIRECTIONS[d]}" if len({held[0][1] for held in sets}) > 1 else ""
+    return f"stiffness of the support{by_node}{by_direction}"
 
 
 def sprung(

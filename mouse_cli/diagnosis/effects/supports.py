@@ -45,8 +45,8 @@ class Released:
 
 def yielding(model: Reduced, candidate: Candidate, turning: bool) -> list[Recipe]:
     """In translation or in rotation: a recipe for each support that the measured modes load, for all alike, and for those of one
-    node, or of all alike, in several directions, each with a stiffness of its own; and for any of few in one direction,
-    each with a stiffness of its own: what was built alike, or stands on one ground, is flexible together though not alike.
+    node, or of all alike, in several directions, each with a stiffness of its own; and for any of few in one direction, or in
+    two, each with a stiffness of its own: what was built alike, or stands on one ground, gives together though not alike.
 
     Half of the prior is that of one support, half that of several.
     """
@@ -68,7 +68,29 @@ def _sets(model: Reduced, found: Released) -> tuple[list[list[list[int]]], ...]:
     single, alike = support_sets(model.problem.mesh, found.held, found.load)
     few = [own for own in by_direction(found.held).values() if len(own) <= _APART]
     apart = [[[i] for i in some] for own in few for n in range(2, len(own) + 1) for some in combinations(own, n)]
-    return single, alike, apart
+    return single, alike, apart + _in_two(found)
+
+
+def _in_two(found: Released) -> list[list[list[int]]]:
+    """Two nodes or more, of few, each in the same two directions: how feet are nearly pinned."""
+    at, nodes = {each: i for i, each in enumerate(found.held)}, list(dict.fromkeys(node for node, _ in found.held))
+    sets = []
+    for two in combinations(sorted(by_direction(found.held)), 2):
+        own = [node for node in nodes if all((node, d) in at for d in two)]
+        few = range(2, len(own) + 1) if len(own) <= _APART else ()
+        sets += [[[at[node, d]] for node in some for d in two] for n in few for some in combinations(own, n)]
+    return sets
+
+
+def _grid(found: Released, sets: list[list[int]], k: list[Unknown]) -> np.ndarray:
+    """Stiffnesses to begin from: all combinations of few; of several nodes in two directions those that are alike in each."""
+    directions = [found.held[own[0]][1] for own in sets]
+    kinds = list(dict.fromkeys(directions))
+    if len(kinds) == 1 or len(kinds) == len(sets):
+        return product(*(steps(each, _STARTS.get(len(sets), 3)) for each in k))
+    count = _STARTS[1]
+    levels, own = np.array([steps(each, count) for each in k]), [kinds.index(d) for d in directions]
+    return np.array([levels[np.arange(len(k)), at[own]] for at in product(*[np.arange(count)] * len(kinds))])
 
 
 def released(model: Reduced, kinds: range, most: int = _MOST, light: bool = False) -> Released | None:
@@ -127,7 +149,7 @@ def _recipe(
         candidate,
         tuple(k),
         change,
-        product(*(steps(each, _STARTS.get(len(sets), 3)) for each in k)),
+        _grid(found, sets, k),
         lambda values: site,
         own=len(which),
         log_prior=share,
@@ -138,9 +160,11 @@ def _recipe(
 
 
 def _parts(model: Reduced, found: Released, which: list[int]) -> tuple[str, ...]:
-    """Names of supports of one direction; none of several directions."""
-    names = [(model.problem.mesh.node_ids[node], DIRECTIONS[d]) for node, d in (found.held[i] for i in which)]
-    return tuple(f"{node}{d}" for node, d in names) if len({d for _, d in names}) == 1 else ()
+    """Names of the nodes and of what moves there, all of them in the same directions."""
+    by: dict[int, str] = {}
+    for node, d in (found.held[i] for i in which):
+        by[node] = by.get(node, str(model.problem.mesh.node_ids[node])) + DIRECTIONS[d]
+    return tuple(by.values())
 
 
 def _range(found: Released, own: list[int]) -> tuple[float, float]:

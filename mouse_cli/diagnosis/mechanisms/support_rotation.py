@@ -11,7 +11,8 @@ CANDIDATE = Candidate(
     "a rotationally flexible support",
     "support",
     "a clamp of the model rotates with the moment (base plate, foundation, clamp), at one support about one axis or several, at a "
-    "row or all alike, or at any of few, each with a stiffness of its own; in one bar close to a smaller EI of the whole",
+    "row or all alike, or at any of few about one axis or two, each with a stiffness of its own; in one bar close to a smaller EI "
+    "of the whole",
     partial(yielding, turning=True),
     supports,
 )

@@ -11,7 +11,7 @@ CANDIDATE = Candidate(
     "a translationally flexible support",
     "support",
     "what the model holds rigidly moves along the direction of a reaction (soil, bearing, test stand), at one support along one "
-    "axis or several, at a row or all alike, or at any of few, each with a stiffness of its own",
+    "axis or several, at a row or all alike, or at any of few along one axis or two, each with a stiffness of its own",
     partial(yielding, turning=False),
     supports,
 )

@@ -24,7 +24,9 @@ def _fewer(one: Fit, there: Study) -> Iterator[Fit]:
         for i in range(len(recipe.parts)):
             rest = (*recipe.parts[:i], *recipe.parts[i + 1 :])
             known = [each for each in there.recipes(recipe.candidate.key) if each.parts == rest != ()]
-            c = np.delete(one.c, one.model.own[j].start + i)
+            each_has = len(recipe.unknowns) // len(recipe.parts)
+            first = one.model.own[j].start + i * each_has
+            c = np.delete(one.c, slice(first, first + each_has))
             models = [there.kind(there.model, (*own[:j], each, *own[j + 1 :])) for each in known]
             yield from (again for model in models if (again := fit(model, c, one.point.x[:k])) is not None)
 
