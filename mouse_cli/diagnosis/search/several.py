@@ -61,15 +61,15 @@ def several(study: Study, singles: list[Fit], most: int, trusted: bool = True, b
     ):
         return []
     singles = singles + [one for one in alone if not any(one is other for other in singles)]
-    found = pairs(study, singles, begun)
+    found = pairs(study, singles, begun := Found(begun))
     smaller, growing = singles + found, found
     most = most if trusted or any(map(adequate, found)) else min(most, 2)
     of_kind = (trusted and most > 2) or not any(map(enough, found))
     alike = same_kind(study, singles, most, smaller, begun) if of_kind else []
     count, before = 3, alone
     explains = lambda one: len(one.recipes) <= count and enough(one, FURTHER)
-    while count <= most and not any(map(explains, growing + alike)) and hopeful(before, growing, most):
-        larger = Found()
+    while count <= most and not any(map(explains, growing + alike)) and hopeful(before, [*growing, *begun.values()], most):
+        larger = _of(begun, count)
         added_up(study, count, larger, growing)
         for one in _begun(growing):
             beside(study, one, study.known, larger)
@@ -172,19 +172,19 @@ def pairs(study: Study, singles: list[Fit], begun: Found | None = None) -> list[
         beside(study, first, study.known if any_of else names, found)
     done: list[Fit] = []
     for _ in range(_ROUNDS):  # both may be there by an alias, or at a wrong site
-        for two in best_of(_of_two(found, near=True), _SWAPPED):
+        for two in best_of(_of(found, 2, near=True), _SWAPPED):
             if not any(two is one for one in done):
                 done.append(two)
                 swap(study, two, found)
-    for two in best_of(_of_two(found, near=True), 1):  # what leads with a partner may be none of those that lead alone
+    for two in best_of(_of(found, 2, near=True), 1):  # what leads with a partner may be none of those that lead alone
         keep(found, exchanged(study, two))
-    return [two for two in finished(study, _of_two(found)) if material(two, singles)]
+    return [two for two in finished(study, _of(found, 2)) if material(two, singles)]
 
 
-def _of_two(found: Found, near: bool = False) -> dict[tuple[str, ...], Fit]:
-    """Those of two mechanisms; near: that may rival the best of all."""
+def _of(found: Found, count: int, near: bool = False) -> Found:
+    """Those of `count` mechanisms; near: that may rival the best of all."""
     reach = within(found.values(), FAR_OF_SETS) if near and found else np.inf
-    return {name: one for name, one in found.items() if len(one.recipes) == 2 and one.misfit <= reach}
+    return Found({name: one for name, one in found.items() if len(one.recipes) == count and one.misfit <= reach})
 
 
 def _fewer(study: Study, sets: list[Fit], smaller: list[Fit]) -> list[Fit]:
