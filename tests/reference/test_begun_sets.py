@@ -19,7 +19,7 @@ def of(nats: float, misfit: float, *names: str) -> SimpleNamespace:
 @pytest.fixture
 def asked(monkeypatch):
     """What is begun, and what is exchanged for what; pairs leave `pair`, three of one kind what is in `three`."""
-    told = SimpleNamespace(begun=[], exchanged=[], pair=of(-900.0, 1800.0, "mass", "turns"), three={})
+    told = SimpleNamespace(begun=[], exchanged=[], renamed=[], pair=of(-900.0, 1800.0, "mass", "turns"), three={})
 
     def added_up(study, count, found, smaller, kind="", most=16):
         told.begun.append((count, kind))
@@ -33,6 +33,7 @@ def asked(monkeypatch):
 
     monkeypatch.setattr(early, "added_up", added_up)
     monkeypatch.setattr(early, "exchanged", exchanged)
+    monkeypatch.setattr(early, "renamed", lambda study, one, name: told.renamed.append(name))
     return told
 
 
@@ -52,7 +53,7 @@ def test_else_two_and_three_of_each_kind_begin_and_those_of_one_group_are_exchan
     early._begin(STUDY, begun, [], 4)
     assert asked.begun == [(2, ""), *((count, name) for name in GROUPS for count in (2, 3))]
     assert asked.exchanged == [(asked.three["in-a-wall"], ("turns", "in-a-wall"))]
-    assert ("turns", "turns", "turns") in begun
+    assert asked.renamed == ["turns", "in-a-wall"] and ("turns", "turns", "turns") in begun
 
 
 def test_what_is_of_several_groups_is_left_as_it_is_and_no_more_begin_than_may_be_together(asked):

@@ -12,7 +12,7 @@ from mouse_cli.diagnosis.search import superposed
 from mouse_cli.diagnosis.search.added_up import Effects
 from mouse_cli.diagnosis.search.descents import tried
 from mouse_cli.diagnosis.search.fit import fit
-from mouse_cli.diagnosis.search.moves import together
+from mouse_cli.diagnosis.search.moves import renamed, together
 from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.diagnosis.search.superposed import KEPT, Alone, chosen
 from mouse_cli.dynamics.eigen import dense_solution
@@ -115,6 +115,17 @@ def test_sets_of_one_kind_are_of_that_kind_alone():
         begun = together(study, count, 4, "mass")
         assert begun and all([one.candidate.key for one in recipes] == ["mass"] * count for recipes, _ in begun)
     assert together(study, 2, 4, "oscillator") == []
+
+
+def test_a_set_is_given_another_name_as_a_whole():
+    """Two springs at the places of two masses: with one of them for a mass it is no better."""
+    study = Study(chain_with({5: 0.4, 16: 0.6}, {}))
+    at = lambda name, node: next(each for each in study.recipes(name) if each.site(each.grid[0]).ids == (node,))
+    springs = study.kind(study.model, (at("ground-spring", "6"), at("ground-spring", "17")))
+    one = fit(springs, np.concatenate([each.coordinates(each.grid[0]) for each in springs.recipes]), np.zeros(study.k))
+    masses = renamed(study, one, "mass")
+    assert [site.ids for site in masses.sites] == [("6",), ("17",)] and masses.misfit < 1e-3 < one.misfit
+    assert renamed(study, one, "crack") is None
 
 
 def test_what_was_looked_at_at_several_places_together_only_is_in_no_pair():

@@ -3,7 +3,7 @@
 from mouse_cli.diagnosis.gates import GATE, ODDS
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.diagnosis.search.found import Found, best_of, keep
-from mouse_cli.diagnosis.search.moves import added_up, adequate, exchanged
+from mouse_cli.diagnosis.search.moves import added_up, adequate, exchanged, renamed
 from mouse_cli.diagnosis.search.optima import within
 from mouse_cli.diagnosis.search.parts import in_turn, promising, single
 from mouse_cli.diagnosis.search.study import Study
@@ -37,8 +37,8 @@ def alone(study: Study, baseline: Fit, most: int) -> tuple[list[Fit], Found]:
 def _begin(study: Study, begun: Found, fits: list[Fit], most: int) -> None:
     """Into `begun` pairs, and where none explains the data two or three of one kind, whose effects add up best.
 
-    Of three flexible feet none leads, nor do two. What leads may be each of them by another of its group: a foot that is held in an
-    elastic wall for one that turns.
+    Of three flexible feet none leads, nor do two. What leads may be all of them by another of its group: feet that are held in
+    elastic walls for such as turn, of which one beside two others is no better than it was.
     """
     added_up(study, 2, begun, fits)
     if any(adequate(one, GATE) for one in begun.values()):
@@ -50,7 +50,9 @@ def _begin(study: Study, begun: Found, fits: list[Fit], most: int) -> None:
         group = best.recipes[0].candidate.group
         names = tuple(name for name, each in study.known.items() if each.group == group)
         if all(recipe.candidate.group == group for recipe in best.recipes):
-            keep(begun, exchanged(study, best, names))
+            for name in names:
+                keep(begun, renamed(study, best, name))
+            keep(begun, exchanged(study, best_of(begun, 1)[0], names))
 
 
 def _matters(one: Fit, baseline: Fit, fits: list[Fit]) -> bool:

@@ -20,6 +20,7 @@ SECOND, QUICK = 2, 8  # fits of a further mechanism beside others, and their ste
 FAR_OF_SETS = 100.0  # as FAR, of sets: many are tried, and brief descents say enough of them
 REACH = 6.0  # log evidence below that of the best from which on a set that is fitted in few steps is no rival of it
 ADEQUATE = 0.05  # p-value of the misfit below which what is left is no noise
+_SHARES = (0.15, 0.4, 0.65)  # of the sizes of a list, from which on sets are begun
 _LESS = 2.0  # times the misfit that a mechanism promises, from which on another that promises more is no alias of it
 _LOOKED = 16  # candidates that promise most beside others, which alone are looked at
 _PARTNERS = 6  # of these those that a first look finds best, which alone are fitted
@@ -66,6 +67,24 @@ def together(study: Study, count: int, most: int, kind: str = "") -> list[tuple[
         starts = [recipe.coordinates(recipe.grid[i]) for recipe, (_, (_, i)) in zip(recipes, members, strict=True)]
         made.append((tuple(recipes), np.concatenate(starts)))
     return made
+
+
+def renamed(study: Study, one: Fit, name: str) -> Fit | None:
+    """Candidate `name` in the place of every mechanism of a set, with as many sizes as it may have; None: it has no such site.
+
+    Exchanged one by one, none of them may be better beside what the others still are.
+    """
+    recipes = []
+    for site in one.sites:
+        own = [recipe for recipe in study.recipes(name) if recipe.site(recipe.grid[0]).ids == site.ids and len(recipe.parts) < 2]
+        recipes += sorted(own, key=lambda recipe: -len(recipe.unknowns))[:1]
+    if len(recipes) < len(one.recipes) or len(set(map(text, recipes))) < len(recipes):
+        return None
+    model, fits = study.kind(study.model, tuple(recipes)), []
+    for share in _SHARES:
+        starts = [recipe.coordinates(recipe.grid[int(share * len(recipe.grid))]) for recipe in recipes]
+        fits.append(fit(model, np.concatenate(starts), np.zeros(study.k), reach=within([one], FAR_OF_SETS)))
+    return min((each for each in fits if each is not None), key=lambda each: each.misfit, default=None)
 
 
 def swap(study: Study, one: Fit, found: Found) -> None:
