@@ -107,7 +107,7 @@ def _tied(ranking: Ranking, verdict: Verdict) -> Iterator[str]:
 
 def _refuted(verdict: Verdict) -> Iterator[str]:
     if verdict.refuted:
-        yield f"Refuted by the data held out, which are predicted worse with it than without: {', '.join(verdict.refuted)}."
+        yield f"Refuted by the data held out, which the model with it does not predict: {', '.join(verdict.refuted)}."
 
 
 def _elsewhere(verdict: Verdict, location: Location | None) -> Iterator[str]:

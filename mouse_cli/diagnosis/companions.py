@@ -20,6 +20,8 @@ from mouse_cli.model.groups import joined, shares
 from mouse_cli.model.shared_place import panels
 from mouse_cli.model.site import Site, gap
 
+CARRIES = 0.9  # share of what a set takes of the misfit from which on one mechanism carries it
+
 Mechanism = tuple[str, str, Site]  # physics, group, site
 
 
@@ -49,6 +51,21 @@ def shared(ranking: Ranking, first: Fit) -> Shared | None:
         best = max(found, key=lambda one: one.probability)
         if best.probability >= (SURE if max((p for _, p in best.companions), default=0.0) >= SURE else OPEN):
             return best
+    return None
+
+
+def carrying(ranking: Ranking, first: Fit) -> Shared | None:
+    """The one mechanism of a set that by itself takes away nearly all of the misfit (CARRIES), with what else acts as it is shared.
+
+    None: none does. Where a set is refuted, that one mechanism stands, and what acts beside it is open.
+    """
+    own, every, reach = _mechanisms(first), list(_explanations(ranking)), SAME_SITE * span(first.model.base)
+    none, least = ranking.baseline.misfit, CARRIES * (ranking.baseline.misfit - first.misfit)
+    for i in steady(first):
+        parts = set(first.recipes[i].parts)
+        there = lambda one, i=i, parts=parts: _matched([own[i]], _mechanisms(one), reach) or parts & set(one.recipes[0].parts)
+        if any(len(one.recipes) == 1 and none - one.misfit > least and there(one) for one in ranking.fits):
+            return _summed((i,), own, every, reach)
     return None
 
 

@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.companions import Shared, panelled, placed, shared, steady
+from mouse_cli.diagnosis.companions import Shared, carrying, panelled, placed, shared, steady
 from mouse_cli.diagnosis.gates import DEMANDED, FAR, GATE, LIKELY, ODDS, STAYS, SURE
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.unseen import unmeasured_hz
@@ -75,7 +75,8 @@ def _judged(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:
     mechanism is sure and what the deck holds out confirms it. Where none of that holds and yet the model as it is is not probable
     (LIKELY), or the model as it is fails on what the deck holds out and a mechanism predicts it, it is likely, not proved: one of
     several, the model as it is among them. A mechanism that is sure at one of several sites is one of these, unless all of them are
-    in one line of panels: that is the place then; of a set those are named whose sites are sure.
+    in one line of panels: that is the place then; of a set those are named whose sites are sure. Of a set that what the deck holds
+    out refutes, that one mechanism is named which carries it, if any does.
     """
     baseline, best, none = ranking.baseline, leader(ranking), dict(ranking.groups).get("none", 0.0)
     believed = ranking.stated[0] >= _BELIEVED
@@ -95,13 +96,23 @@ def _judged(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:
         return _unknown(ranking, model, best, proof, (), reasons)
     if gain < -ODDS:
         return _unknown(ranking, model, best, proof, (group(best),), reasons)
-    certain_ = kind == NAMED and ranking.groups[0][1] >= SURE
+    if kind == NAMED and len(best.recipes) > 1 and proof is not None and proof.refuted:
+        part = carrying(ranking, best)
+        if part is None:
+            return _unknown(ranking, model, best, proof, (group(best),), reasons)
+        return Verdict(kind, best, proof, reasons=reasons, certain=part)
+    return _named(ranking, Verdict(kind, best, proof, reasons=reasons))
+
+
+def _named(ranking: Ranking, found: Verdict) -> Verdict:
+    """The same, and which mechanisms of a set are named, and whether their places are sure."""
+    best, certain_ = found.best, found.kind == NAMED and ranking.groups[0][1] >= SURE
     moved = certain_ and placed(best) < SURE
     spread = certain_ and 0 < len(steady(best)) < len(best.recipes)
-    part = shared(ranking, best) if moved or spread or (kind == NAMED and not certain_) else None
+    part = shared(ranking, best) if moved or spread or (found.kind == NAMED and not certain_) else None
     if moved and (part is None or len(part.which) == len(best.recipes)):
-        return Verdict(NAMED if panelled(best) else ONE_OF, best, proof, reasons=reasons, placed=False)
-    return Verdict(kind, best, proof, reasons=reasons, certain=part)
+        return replace(found, kind=NAMED if panelled(best) else ONE_OF, placed=False)
+    return replace(found, certain=part)
 
 
 def _odds(ranking: Ranking, one: Fit) -> float:

@@ -23,6 +23,7 @@ class Score:
 
 
 BY_DECK, BY_MODE = "held out by the deck", "each mode from the others"
+REFUTED = 1e-3  # p-value of data that no fit has seen below which a model is refuted by them
 
 
 @dataclass(frozen=True)
@@ -34,3 +35,8 @@ class HeldOut:
     measured_hz: np.ndarray
     baseline: Score
     revised: Score | None
+
+    @property
+    def refuted(self) -> bool:
+        """Whether what the deck holds out refutes the revised model, however much better than the other it predicts that."""
+        return self.kind == BY_DECK and self.revised is not None and self.revised.p < REFUTED

@@ -7,12 +7,12 @@ import pytest
 
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
-from mouse_cli.diagnosis.search import study as searched
+from mouse_cli.diagnosis.search import looks as searched
 from mouse_cli.diagnosis.search import superposed
 from mouse_cli.diagnosis.search.added_up import Effects
 from mouse_cli.diagnosis.search.descents import tried
 from mouse_cli.diagnosis.search.fit import fit
-from mouse_cli.diagnosis.search.moves import renamed, together
+from mouse_cli.diagnosis.search.moves import centred, renamed, together
 from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.diagnosis.search.superposed import KEPT, Alone, chosen
 from mouse_cli.dynamics.eigen import dense_solution
@@ -47,7 +47,7 @@ def test_effects_add():
     effects = np.array([[0.9, 0.0, 0.0, 0.0], [0.0, 0.55, 0.0, 0.0], [0.0, 0.0, 0.3, 0.0]])
     sites = [(f"{i}", size) for i in range(3) for size in range(KEPT // 2)]
     alone = Alone(sites, np.repeat(data - effects, KEPT // 2, axis=0) + 1e-9, data)
-    found = chosen(alone, data - there, np.zeros(0), np.zeros((4, 0)), np.zeros((0, 4)))
+    found = chosen(alone, data - there, np.zeros(0), np.zeros((4, 0)), np.zeros((0, 4)), KEPT)
     assert len(found) <= KEPT
     assert {text for text, _ in found} >= {"1"}
     assert sum(text == "1" for text, _ in found) == KEPT // 3
@@ -179,3 +179,18 @@ def test_what_is_there_adapts_to_what_is_looked_at():
     at = both.point(np.concatenate([first.point.x, spring.coordinates(np.array([4e3]))]))
     assert study.predicted(at, first.point.x, first.recipes) < 10
     assert study.predicted(at) > 500  # the deck's parameters alone
+
+
+@pytest.mark.parametrize(("stiffness", "turned"), [(40.0, False), (4e4, True)])
+def test_effects_add_up_beside_what_turns_the_modes(stiffness, turned):
+    """What is promised beside a spring that turns the modes is what is found there, once that is where effects add up from."""
+    model = chain_with({5: 0.4}, {16: stiffness})
+    study = Study(model)
+    first = tried(study, "ground-spring", (), np.zeros(study.k), 1)[0][0]
+    coarse, x = study.about(first).coarse, first.point.x
+    assert coarse.turned(x, first.recipes) == turned
+    before = coarse.promise("mass", x, first.recipes)
+    centred(study, first)
+    found = coarse.looks("mass", x, first.recipes)[0][0]
+    assert coarse.promise("mass", x, first.recipes) == pytest.approx(found if turned else before, rel=1e-6)
+    assert not turned or abs(before / found - 1) > 0.1

@@ -6,6 +6,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.effects import element_sets
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown
+from mouse_cli.diagnosis.effects.rows import runs
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.extend.matrices import Entries, of_matrices, with_entries
 from mouse_cli.diagnosis.extend.points import found as new_parameter
@@ -20,20 +21,20 @@ from mouse_cli.model.problem import Problem
 from mouse_cli.terms.bound_properties import BoundProperties, nominal_properties
 from mouse_cli.terms.elements import Layout, Matrices, registry
 
-_MOST = 60  # places that are looked at: those that hold most energy in the lowest modes
+_MOST, _RUNS = 60, 240  # places, and runs of them in a row, that are looked at: those that hold most energy in the lowest modes
 _FEW = 12  # directions of them that a search in few coordinates knows to soften
 _STIFF = {"rod": ("E",), "spring": DIRECTIONS, "storey": DIRECTIONS, "joint": DIRECTIONS}
 _BEGIN, _GAINS = (0.1, 0.5, 0.9), (0.1, 1.0, 8.0)  # shares to begin from: what is left of a stiffness counts
 LOST = "share lost"
-_LOST, _GAINED = Unknown(LOST, "1", 0.02, 0.99), Unknown("share gained", "1", 0.02, 20.0)
+_LOST, _GAINED = Unknown(LOST, "1", 0.02, 0.999), Unknown("share gained", "1", 0.02, 20.0)  # a lost one is as good as missing
 
 
 def of_elements(model: Reduced, candidate: Candidate, sign: int = -1, directed: bool = False) -> list[Recipe]:
     """K - d K_e of each rod, spring, storey and joint, or K + d K_e by `sign`; directed: of each of its directions alone too, and
-    of springs that are one mount, or one kind, alike.
+    of springs that are one mount, or one kind, or next to one another in a row, alike.
     """
     found = _parts(model, directed)
-    sets = _strained(model, _mounts(model, found)) if directed else []
+    sets = _strained(model, _mounts(model, found)) + _strained(model, _runs(model, found), _RUNS) if directed else []
     count = len({each[:2] for each in found}) + len(sets)
     parts = [((each[:2],), *each[2:]) for each in _strained(model, found)] + sets
     return [_elements(model, candidate, each, count, sign) for each in parts]
@@ -68,12 +69,12 @@ def _parts(model: Reduced, directed: bool) -> list[tuple]:
     return [(s, *part) for s, parts in enumerate(found) for part in parts]
 
 
-def _strained(model: Reduced, found: list) -> list:
+def _strained(model: Reduced, found: list, most: int = _MOST) -> list:
     """Those of (..., K_e (r, r)) that hold most energy in the lowest modes, of those that hold any."""
     count = model.low_modes()
     scale = np.maximum(model.eigenvalues[:count], 1e-9 * model.eigenvalues[-1])
     energy = np.array([(np.diag(each[-1])[:count] / scale).max() for each in found])
-    return [found[i] for i in sorted(np.argsort(-energy)[:_MOST]) if energy[i] > 1e-6]
+    return [found[i] for i in sorted(np.argsort(-energy)[:most]) if energy[i] > 1e-6]
 
 
 def _stiffness(model: Reduced, s: int, directed: bool) -> list[tuple[int, str, float, np.ndarray]]:
@@ -138,6 +139,12 @@ def _mounts(model: Reduced, found: list[tuple]) -> list[tuple]:
             parts.setdefault(key, []).append((s, i, K))
     joined = {tuple(each[:2] for each in own): sum(each[2] for each in own) for own in parts.values() if len(own) > 1}
     return [(of, "", 1.0, K) for of, K in joined.items()]
+
+
+def _runs(model: Reduced, found: list[tuple]) -> list[tuple]:
+    """Springs and joints next to one another in a row, but not all of one kind: as `_mounts` has them."""
+    K = {(s, i): own for s, i, direction, _, own in found if not direction}
+    return [(of, "", 1.0, sum(K[member] for member in of)) for of in runs(model.problem.mesh, list(K))] if K else []
 
 
 def _elements(model: Reduced, candidate: Candidate, part: tuple, count: int, sign: int) -> Recipe:

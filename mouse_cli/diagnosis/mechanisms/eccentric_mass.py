@@ -3,7 +3,7 @@
 import numpy as np
 
 from mouse_cli.diagnosis.effects.arms import arm, arms, at_end, turning, with_arm
-from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown
+from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import BODY, total_mass
@@ -12,7 +12,7 @@ from mouse_cli.diagnosis.sites.attached import Attached
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
 
-_BEGIN = 0.03  # of the whole mass
+_SIZES = 3  # masses that every arm begins with
 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
@@ -37,7 +37,7 @@ def _recipe(model: Reduced, candidate: Candidate, node: int, at: Attached, about
         edit.bind(f"mass on {site.text}", edit.add("mass", [[end]], {"mass": values[0]}), ("mass",), unit="kg")
         return edit.done()
 
-    grid = np.hstack([np.full((len(starts), 1), _BEGIN * total), starts])
+    grid = np.hstack([np.repeat(steps(m, _SIZES), len(starts))[:, None], np.tile(starts, (_SIZES, 1))])
     log_prior = -float(np.log(count))
     return Recipe(
         candidate, (m, *unknowns), change, grid, lambda values: site, at.own, log_prior=log_prior, extend=extend

@@ -11,7 +11,7 @@ from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.found import Found, best_of, keep, key
 from mouse_cli.diagnosis.search.optima import NEAR, within
 from mouse_cli.diagnosis.search.pared import pared
-from mouse_cli.diagnosis.search.parts import Beside, in_turn, look_beside, partner
+from mouse_cli.diagnosis.search.parts import Beside, centre, in_turn, learn_beside, look_beside, partner
 from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.diagnosis.search.superposed import text
 from mouse_cli.updating.chi_square import upper_tail
@@ -125,17 +125,32 @@ def beside(study: Study, first: Fit, partners: Iterable[str], found: Found) -> N
     in_turn(study, partner, [(causes, name, SECOND, QUICK) for name in names], accept, reach)
 
 
+def centred(study: Study, first: Fit) -> None:
+    """From here on effects add up beside a fit, if its mechanisms turn the modes so far that others act otherwise beside them."""
+    there = study.about(first)
+    if there.coarse.turned(first.point.x, first.recipes):
+        causes = Beside.of(first, there)
+        centre(study, causes)
+        if study.pool is not None:
+            study.pool.broadcast(centre, causes)
+
+
 def _promising(study: Study, there: Study, first: Fit, partners: list[str]) -> list[str]:
-    """Those of `partners` that a first look beside `first` finds best, of such as promise most where effects add up."""
+    """Those of `partners` that a first look beside `first` finds best, of such as promise most where effects add up; of all beside
+    a centre.
+    """
     if len(partners) <= _PARTNERS:
         return partners
     coarse, causes, looks = there.coarse, Beside.of(first, there), {}
-    promise = {name: coarse.promise(name, first.point.x, first.recipes) for name in partners}
-    partners = sorted(partners, key=promise.__getitem__)[:_LOOKED]
+    promise = {name: coarse.promise(name, first.point.x, first.recipes) for name in partners if study.recipes(name)}
+    most = len(promise) if coarse.centred(first.point.x, first.recipes) else _LOOKED
+    partners = sorted(promise, key=promise.__getitem__)[:most]
 
-    def accept(i: int, seen: list) -> None:
-        looks[partners[i]] = seen
-        coarse.keep_beside(partners[i], first.point.x, first.recipes, seen)
+    def accept(i: int, seen: tuple) -> None:
+        looks[partners[i]], alone = seen
+        coarse.keep_beside(partners[i], first.point.x, first.recipes, *seen)
+        if alone is not None and study.pool is not None:
+            study.pool.broadcast(learn_beside, causes, partners[i], *seen)
 
     in_turn(study, look_beside, [(causes, name) for name in partners], accept)
     order = sorted((name for name in partners if looks[name]), key=lambda name: looks[name][0][0])

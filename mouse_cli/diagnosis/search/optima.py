@@ -15,9 +15,9 @@ NEAR = 40.0  # the same of fits of the same causes at other places, of which the
 
 
 def within(found: Iterable[Fit], far: float = FAR) -> float:
-    """Misfit above which a fit can be no rival of the best of `found`."""
-    least = min(found, key=lambda one: one.misfit)
-    return least.misfit + far * max(1.0, least.misfit / max(least.dof, 1))
+    """Misfit above which a fit can be no rival of the best of `found`; infinite where nothing was found."""
+    least = min(found, key=lambda one: one.misfit, default=None)
+    return np.inf if least is None else least.misfit + far * max(1.0, least.misfit / max(least.dof, 1))
 
 
 def distinct(found: list[Fit]) -> list[Fit]:

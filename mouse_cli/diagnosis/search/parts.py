@@ -94,10 +94,22 @@ def single(study: Study, name: str, reach: float) -> Fit | None:
     return best(study, name, reach)
 
 
-def look_beside(study: Study, beside: Beside, name: str, reach: float) -> Looks:
-    """What a candidate does beside causes that are there."""
+def centre(study: Study, beside: Beside) -> None:
+    """From here on effects add up beside these causes."""
     there, own = beside.at(study)
-    return there.coarse.looks(name, beside.x, own)
+    there.coarse.begun.centres.add(beside.x, own)
+
+
+def look_beside(study: Study, beside: Beside, name: str, reach: float) -> tuple[Looks, Alone | None]:
+    """What a candidate does beside causes that are there; all of it, if these are a centre."""
+    there, own = beside.at(study)
+    return there.coarse.looks(name, beside.x, own), there.coarse.beside(name, beside.x, own)
+
+
+def learn_beside(study: Study, beside: Beside, name: str, looks: Looks, alone: Alone | None) -> None:
+    """Keep what a look beside others found."""
+    there, own = beside.at(study)
+    there.coarse.keep_beside(name, beside.x, own, looks, alone)
 
 
 def partner(study: Study, beside: Beside, name: str, count: int, most: int, reach: float) -> list[Found]:

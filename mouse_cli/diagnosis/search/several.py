@@ -8,7 +8,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from mouse_cli.diagnosis.gates import GATE
+from mouse_cli.diagnosis.gates import GATE, SEVERAL
 from mouse_cli.diagnosis.search.alike import same_kind
 from mouse_cli.diagnosis.search.fit import MOST, Fit
 from mouse_cli.diagnosis.search.found import Found, best_of, keep, key, material, replaced
@@ -19,6 +19,7 @@ from mouse_cli.diagnosis.search.moves import (
     added_up,
     adequate,
     beside,
+    centred,
     exchanged,
     finished,
     promised,
@@ -43,7 +44,7 @@ def plain(found: Iterable[Fit]) -> list[Fit]:
     return [max(own, key=lambda each: each.log_evidence) for own in alone if own]
 
 
-def enough(one: Fit, least: float = ADEQUATE, held: float = ADEQUATE) -> bool:
+def enough(one: Fit, least: float = ADEQUATE, held: float = SEVERAL) -> bool:
     """Whether what a fit leaves may be noise: p above `least` of what was fitted, and above `held` of what the deck holds out."""
     return adequate(one, least) and ((rest := held_out_density(one)) is None or rest.p > held)
 
@@ -167,6 +168,7 @@ def pairs(study: Study, singles: list[Fit], begun: Found | None = None) -> list[
     found = Found(begun)
     if not found:
         added_up(study, 2, found, singles)
+    centred(study, leading[0])
     for first in leading:
         any_of = any(first is one for one in wide)
         beside(study, first, study.known if any_of else names, found)
@@ -183,7 +185,7 @@ def pairs(study: Study, singles: list[Fit], begun: Found | None = None) -> list[
 
 def _of(found: Found, count: int, near: bool = False) -> Found:
     """Those of `count` mechanisms; near: that may rival the best of all."""
-    reach = within(found.values(), FAR_OF_SETS) if near and found else np.inf
+    reach = within(found.values(), FAR_OF_SETS) if near else np.inf
     return Found({name: one for name, one in found.items() if len(one.recipes) == count and one.misfit <= reach})
 
 

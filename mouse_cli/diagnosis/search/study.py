@@ -1,7 +1,5 @@
-"""What each mechanism can do to a model: a first look at all of its places and sizes, and brief descents from the best."""
+"""What each mechanism can do to a model: brief descents from what a first look finds best, at any parameters of the deck."""
 
-from collections.abc import Iterator
-from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
@@ -9,17 +7,15 @@ import numpy as np
 
 from mouse_cli.diagnosis import gates
 from mouse_cli.diagnosis.effects.change import Recipe
-from mouse_cli.diagnosis.evidence import capped
 from mouse_cli.diagnosis.likelihoods.modal.lowest import lowest
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
-from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
-from mouse_cli.diagnosis.mechanisms import Candidate, registry
-from mouse_cli.diagnosis.search.added_up import Effects
+from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.search.fit import Fit, descended
+from mouse_cli.diagnosis.search.looks import Looks
 from mouse_cli.diagnosis.search.optima import BEYOND
 from mouse_cli.diagnosis.search.starts import Led, cost, leading, spread, surrounding
-from mouse_cli.diagnosis.search.superposed import KEPT, Alone, by_itself, chosen, promised, text
+from mouse_cli.diagnosis.search.superposed import text
 from mouse_cli.dynamics.eigen import IndefiniteError
 from mouse_cli.updating.chi_square import upper_tail
 
@@ -29,15 +25,13 @@ _ROUNDS, _SURROUNDED, _AROUND = 3, 3, 6  # times that the best ends are surround
 _WEIGHED = 12  # ends of brief descents that are weighed in all coordinates
 MOVED = 5e-3  # share of parameters within which causes weigh alike
 _ABOUT = 4  # studies at other parameters that are kept
-_NOWHERE = np.zeros(0)
 _COARSE = 24  # coordinates at least for a first look
 
 
-class Study:
+class Study(Looks):
     """A reduced model, what each candidate can do to it, and the same at other parameters, where causes weigh otherwise.
 
-    known: candidates by key; None: all. kind: of what a model with causes is made, of one structure or of its arrangements. alone:
-    what candidates do by themselves. pool: processes that share the search, of the study that it began with.
+    pool: processes that share the search, of the study that it began with.
     """
 
     def __init__(
@@ -47,23 +41,9 @@ class Study:
         kind: type[Model] = Model,
         begun: "Study | None" = None,
     ):
-        self.model, self.k, self.kind = model, model.L.shape[1], kind
-        self.begun = self if begun is None else begun  # the same at the parameters where the search began
-        self.alone: dict[str, Alone] = {}
+        super().__init__(model, known, kind, begun)
         self.pool: Any = None
-        self.known = registry() if known is None else known
-        self._made: dict[str, list[Recipe]] = {}
         self._about: list[Study] = [self]
-        self._looked: dict[tuple, list[tuple[float, int, np.ndarray]]] = {}
-        self._following: dict[tuple, tuple[np.ndarray, np.ndarray]] = {}
-
-    def recipes(self, name: str) -> list[Recipe]:
-        """What candidate `name` can do, and where; made when first asked for."""
-        if name not in self._made:
-            candidate = self.known[name]
-            made = self.model.recipes(candidate)
-            self._made[name] = [replace(recipe, number=i, home=self.model) for i, recipe in enumerate(made)]
-        return self._made[name]
 
     @cached_property
     def coarse(self) -> "Study":
@@ -75,94 +55,6 @@ class Study:
         if model is self.model:
             return self
         return Study(model, self.known, self.kind, None if self.begun is self else self.begun.coarse)
-
-    @cached_property
-    def effects(self) -> Effects:
-        """What all do by themselves, of one place each; asked for when all were looked at."""
-        single = {name: {text(each) for each in self.recipes(name) if len(each.parts) < 2} for name in self.alone}
-        alone = {name: own for name, one in self.alone.items() if (own := one.of(single[name])).at}
-        return Effects(alone, *self._adapted(np.zeros(self.k), ()))
-
-    def looks(self, name: str, before: np.ndarray, beside: tuple[Recipe, ...]) -> list[tuple[float, int, np.ndarray]]:
-        """Misfits to be expected, numbers of recipes of candidate `name`, and x to begin from, the most promising first; kept."""
-        others = self.own(beside)
-        key = _key(name, before, others)
-        if key not in self._looked:
-            found, seen = [], []
-            for recipe, i, at in self._points(name, before, others):
-                found.append((self.predicted(at, before, others), recipe.number, at.x))
-                seen.append((text(recipe), i, at.residual))
-            self._looked[key] = sorted(found, key=lambda item: item[0])
-            none = self.kind(self.model).point(before) if seen and not others and not before.any() else None
-            if none is not None and name not in self.alone:
-                self.alone[name] = by_itself(seen, none.residual)
-        return self._looked[key]
-
-    def keep(self, name: str, looks: list[tuple[float, int, np.ndarray]], alone: Alone | None) -> None:
-        """Looks at a candidate by itself, and what it does there, found by another process."""
-        self._looked.setdefault(_key(name, np.zeros(self.k), ()), looks)
-        if alone is not None:
-            self.alone.setdefault(name, alone)
-
-    def keep_beside(self, name: str, before: np.ndarray, beside: tuple[Recipe, ...], looks: list) -> None:
-        """Looks at a candidate beside others, likewise."""
-        self._looked.setdefault(_key(name, before, self.own(beside)), looks)
-
-    def _points(self, name: str, before: np.ndarray, others: tuple[Recipe, ...]) -> Iterator[tuple[Recipe, int, Point]]:
-        """Recipe, number of the size and point of what candidate `name` does beside `others`, where that is worth a look."""
-        worth = self._worth(name, before, others)
-        for recipe in self.recipes(name):
-            if others and len(recipe.parts) > 1:  # several grow one by one beside others
-                continue
-            trial, place = self.kind(self.model, (*others, recipe)), text(recipe)
-            for i, values in enumerate(recipe.grid):
-                if worth is None or (place, i) in worth:
-                    at = trial.point(np.concatenate([before, recipe.coordinates(values)]))
-                    if at is not None:
-                        yield recipe, i, at
-            recipe.forget()
-
-    def _worth(self, name: str, before: np.ndarray, others: tuple[Recipe, ...]) -> set[tuple[str, int]] | None:
-        """Sites, and numbers of sizes, that are worth a look beside `others`; None: all."""
-        few = sum(len(recipe.grid) for recipe in self.recipes(name)) <= KEPT
-        if not others:
-            alone = None if before.any() else self._glimpsed(name)
-            return None if few or alone is None else chosen(alone, alone.none, before, *self._adapted(before, ()))
-        given = None if few else self._there(name, before, others)
-        return None if given is None else chosen(*given)
-
-    def promise(self, name: str, before: np.ndarray, others: tuple[Recipe, ...]) -> float:
-        """The misfit that candidate `name` promises beside `others` where effects add up; -inf: that is not known."""
-        given = self._there(name, before, self.own(others))
-        return -np.inf if given is None else float(promised(*given).min())
-
-    def _there(self, name: str, before: np.ndarray, others: tuple[Recipe, ...]) -> tuple | None:
-        """What `promised` asks for, of candidate `name` beside `others`; None without a look at it by itself."""
-        self.begun.looks(name, np.zeros(self.k), ())
-        trial, alone = self.kind(self.model, others), self.begun.alone.get(name)
-        at = trial.point(before)
-        if at is None or alone is None:
-            return None
-        left = trial.glimpsed(before) if alone.glimpsed else at.residual
-        return None if left is None else (alone, left, before[: self.k], *self._adapted(before, others))
-
-    def _glimpsed(self, name: str) -> Alone | None:
-        """What a candidate does by itself where modes are close, whose angles cost more to find than the modes; None: none are."""
-        bare, none = self.kind(self.model), np.zeros(self.k)
-        at = bare.point(none)
-        if at is None or not at.turns or not isinstance(bare, Model):
-            return None
-        seen = []
-        for recipe in self.recipes(name):
-            trial, place = self.kind(self.model, (recipe,)), text(recipe)
-            for i, values in enumerate(recipe.grid):
-                left = trial.glimpsed(np.concatenate([none, recipe.coordinates(values)]))
-                seen += [] if left is None else [(place, i, left)]
-            recipe.forget()
-        if not seen:
-            return None
-        self.alone[name] = by_itself(seen, bare.glimpsed(none), glimpsed=True)
-        return self.alone[name]
 
     def approached(
         self, name: str, before: np.ndarray, beside: tuple[Recipe, ...], reach: float = np.inf
@@ -211,37 +103,6 @@ class Study:
             led = led if end is None else leading(led, (i, x, end))
         return led
 
-    def _adapted(self, before: np.ndarray, others: tuple[Recipe, ...]) -> tuple[np.ndarray, np.ndarray]:
-        """T (q, k + t), and (T'T + P)^-1 [T', -P] (k + t, q + k): how far the deck's parameters, and t coordinates of the causes
-        `others` that are there `before`, follow a residual. P: their prior; coordinates are as wide as their ranges at most.
-        """
-        key = (before.tobytes(), *((each.candidate.key, each.number) for each in others)) if others else ()
-        if key not in self._following:
-            model = self.kind(self.model, others)
-            at = model.point(before if others else np.zeros(self.k))
-            if at is None:
-                return self._adapted(np.zeros(self.k), ())
-            T = model.jacobian(at)
-            H = capped(T.T @ T + np.diag(np.arange(T.shape[1]) < self.k), model.width)
-            self._following[key] = T, np.linalg.solve(H, np.hstack([T.T, -np.eye(T.shape[1], self.k)]))
-        return self._following[key]
-
-    def predicted(self, at: Point, before: np.ndarray = _NOWHERE, others: tuple[Recipe, ...] = ()) -> float:
-        """The misfit that is left of `at` when the deck's parameters, and causes that are there `before`, adapt to first order."""
-        T, adapted = self._adapted(before, others)
-        step = adapted @ np.concatenate([at.residual, at.x[: self.k]])
-        left, z = at.residual - T @ step, at.x[: self.k] + step[: self.k]
-        return float(left @ left + z @ z)
-
-    def own(self, recipes: tuple[Recipe, ...]) -> tuple[Recipe, ...]:
-        """The same causes at the same places in this model, which may count places otherwise."""
-        return tuple(self._same(recipe) for recipe in recipes)
-
-    def _same(self, recipe: Recipe) -> Recipe:
-        made, place = self.recipes(recipe.candidate.key), text(recipe)
-        order = sorted(made, key=lambda each: each.number != recipe.number)
-        return next((each for each in order if text(each) == place), order[0])
-
     def with_cause(self, others: tuple[Recipe, ...], name: str, number: int) -> Model:
         """The model with the causes `others`, from any study, and recipe `number` of candidate `name`."""
         return self.kind(self.model, (*self.own(others), self.recipes(name)[number]))
@@ -280,11 +141,6 @@ class Study:
         there = Study(self.model.at(theta), self.known, self.kind, self.begun)
         self._about = [self, there, *self._about[1:_ABOUT]]
         return there
-
-
-def _key(name: str, before: np.ndarray, others: tuple[Recipe, ...]) -> tuple:
-    """Of looks at a candidate beside others that are there `before`."""
-    return name, before.tobytes(), *((each.candidate.key, each.number) for each in others)
 
 
 def _lowest(model: Reduced) -> Reduced:

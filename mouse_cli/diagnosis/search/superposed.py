@@ -55,11 +55,11 @@ def promised(alone: Alone, residual: np.ndarray, z: np.ndarray, T: np.ndarray, a
 
 
 def chosen(
-    alone: Alone, residual: np.ndarray, z: np.ndarray, T: np.ndarray, adapted: np.ndarray
+    alone: Alone, residual: np.ndarray, z: np.ndarray, T: np.ndarray, adapted: np.ndarray, kept: int
 ) -> set[tuple[str, int]]:
-    """The most promising of `alone`, see `promised`."""
+    """The `kept` most promising of `alone`, see `promised`."""
     left = promised(alone, residual, z, T, adapted)
-    most = max(_EACH, KEPT // len({text for text, _ in alone.at}))
+    most = max(_EACH, kept // len({text for text, _ in alone.at}))
     taken: dict[str, int] = {}
     found: set[tuple[str, int]] = set()
     for i in np.argsort(left, kind="stable").tolist():
@@ -67,6 +67,6 @@ def chosen(
         if taken.get(text, 0) < most:
             taken[text] = taken.get(text, 0) + 1
             found.add(alone.at[i])
-        if len(found) == KEPT:
+        if len(found) == kept:
             break
     return found
