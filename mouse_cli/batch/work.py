@@ -75,8 +75,7 @@ def _answer(job: Job, data: bytes) -> tuple[int, tuple[Diagnostic, ...], dict[st
     if job.command == CHECK:
         from mouse_cli.updating.prior_model import examine
 
-        examine(problem)
-        return 0, problem.warnings, None
+        return 0, problem.warnings + examine(problem), None
     from mouse_cli.report import document
 
     found = _diagnosed(problem, job.options) if job.command == DIAGNOSE else _run(problem)

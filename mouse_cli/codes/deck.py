@@ -137,8 +137,10 @@ CODES = {
     ),
     "MD331": Code(
         "shape unrelated to the model's",
-        "A measured shape is nearly orthogonal to the model's mode of that number, so that it cannot be brought to its scale.",
-        "Check mode numbers and the order of the points; or use --pairing mac, or --scale none.",
+        "A measured shape is nearly orthogonal to the model's mode that it is paired with, so that it cannot be brought to its "
+        "scale. Where most modes of a test are the model's, `mouse check` warns of it: `mouse run` refuses such a test, "
+        "`mouse diagnose` does not.",
+        "Check mode numbers and the order of the points. If they are right, the model lacks what makes the mode: `mouse diagnose`.",
     ),
     "MD332": Code(
         "more rigid-body modes than in 1972",

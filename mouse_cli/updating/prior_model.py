@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from mouse_cli._errors import DeckError, Diagnostic
 from mouse_cli.dynamics.eigen import IndefiniteError
 from mouse_cli.dynamics.solver import EigenSolver, Notice
 from mouse_cli.estimators import estimator as find_estimator
@@ -18,6 +19,8 @@ from mouse_cli.updating.frf_gains import with_gains
 from mouse_cli.updating.frf_setting import begin as begin_frf
 from mouse_cli.updating.frf_setting import with_test
 from mouse_cli.updating.state import Setting, State, paired, solve
+
+_RELATED = 0.5  # share of the modes of a test up to which it is taken for another one, or for one out of order
 
 
 def begin(
@@ -82,14 +85,15 @@ def related(problem: Problem, solver: EigenSolver | None = None) -> np.ndarray:
     return kept
 
 
-def examine(problem: Problem) -> None:
-    """Look at what only the eigensolution of the prior model can tell of a deck; large models are left alone.
+def examine(problem: Problem) -> tuple[Diagnostic, ...]:
+    """What only the eigensolution of the prior model can tell of a deck; large models are left alone.
 
-    Raises DeckError and NumericalError as `run` does before its first cycle.
+    Where few of the measured modes are none of the model's, that is a warning: a diagnosis goes without their shapes. Raises
+    DeckError and NumericalError as `run` does before its first cycle.
     """
     estimator(problem)
     if is_sparse(problem.structure.K) or is_sparse(problem.structure.M):
-        return
+        return ()
     try:
         if problem.test is None:
             solve(problem, *assemble(problem).matrices(problem.prior.mean))
@@ -97,3 +101,8 @@ def examine(problem: Problem) -> None:
             begin(problem)
     except (IndefiniteError, np.linalg.LinAlgError) as reason:
         raise refusals.unphysical(problem, str(reason)) from None
+    except DeckError as error:
+        if any(one.code != "MD331" for one in error.diagnostics) or related(problem).mean() <= _RELATED:
+            raise
+        return refusals.left_out(error)
+    return ()

@@ -1,8 +1,10 @@
 """Errors that only an eigensolution shows: a test that cannot belong to its model, a model that is not physical."""
 
+from dataclasses import replace
+
 import numpy as np
 
-from mouse_cli._errors import ERROR, DeckError, Diagnostic, NumericalError
+from mouse_cli._errors import ERROR, WARNING, DeckError, Diagnostic, NumericalError
 from mouse_cli.dynamics.correlation import mac
 from mouse_cli.dynamics.eigen import EigenSolution
 from mouse_cli.model.problem import Problem
@@ -69,8 +71,14 @@ def unrelated(problem: Problem, solution: EigenSolution, mode: int, ratio: float
         "at least 0.1 is expected",
         problem.place(f"mode {test.number[mode]}"),
         note=f"it looks most like model mode {best + 1} (MAC {likeness[best]:.2f})",
-        help="check the mode numbers and the order of the measured points, or use --pairing mac or --scale none",
+        help="check the mode numbers and the order of the measured points; if these are right, the model lacks what makes this "
+        "mode: `mouse diagnose`",
     )
+
+
+def left_out(error: DeckError) -> tuple[Diagnostic, ...]:
+    """What `mouse run` refuses of a test of which most modes are the model's, and `mouse diagnose` does not."""
+    return tuple(replace(one, severity=WARNING, message=f"{one.message}; `mouse run` refuses it") for one in error.diagnostics)
 
 
 def not_simulated(problem: Problem) -> NumericalError:

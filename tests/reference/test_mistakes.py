@@ -5,12 +5,13 @@ Natural Frequency and Mode Shape, table 8-1) and a chain of equal springs and ma
 """
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from mouse_cli._errors import ERROR, DeckError
+from mouse_cli._errors import ERROR, WARNING, DeckError
 from mouse_cli.formats import read_deck, read_draft
 from mouse_cli.formats.assemble import assemble
 from mouse_cli.updating.loop import run
@@ -197,6 +198,23 @@ def test_a_mistake_is_answered_with_its_remedy(name):
     fitting = [d for d in told if re.fullmatch(code, d.code) and re.search(remedy, f"{d.message} {d.help} {d.note}")]
     assert fitting, told
     assert sum(d.severity == ERROR for d in told) <= 1, told  # one cause, one error
+
+
+@pytest.mark.parametrize(("unrelated", "severity"), [(1, WARNING), (4, ERROR)])
+def test_a_mode_that_the_model_has_not_is_an_error_only_where_most_are_such(unrelated, severity):
+    """The model may lack what makes one; where most have nothing to do with it the points are in another order."""
+    problem = problem_of(BEAM)
+    shapes = problem.test.shapes.copy()
+    for column in shapes.T[:unrelated]:
+        column[:] = np.linalg.svd((column * (1, 1, 1, 0.5))[None, :])[2][-1]  # orthogonal by mass, of which the tip has half
+    with_it = replace(problem, test=replace(problem.test, shapes=shapes), run=replace(problem.run, pairing="number"))
+    try:
+        told = examine(with_it)
+    except DeckError as error:
+        told = error.diagnostics
+    assert [(d.code, d.severity) for d in told] == [("MD331", severity)] and "mouse diagnose" in told[0].help
+    with pytest.raises(DeckError):
+        run(with_it)
 
 
 DECKS = sorted((Path(__file__).resolve().parents[2] / "decks").glob("*.yaml"))

@@ -71,7 +71,7 @@ def _findings(path: str, stacked: bool) -> tuple:
         for draft in read_drafts(path, stacked):
             problem = assemble(draft)
             found += problem.warnings
-            examine(problem)
+            found += examine(problem)
             found += _records(problem)
     except MouseError as error:
         return found + error.diagnostics
