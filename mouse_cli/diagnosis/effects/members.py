@@ -28,6 +28,9 @@ _LOST, _GAINED = Unknown(LOST, "1", 0.02, 0.99), Unknown("share gained", "1", 0.
 # left of it hardly is a tuned mass in members like it, whose modes it splits by the root of its mass over theirs.
 _GONE = Unknown(LOST, "1", 0.02, 1 - 1e-7)
 _STIFF = {"beam": ("E",), "rod": ("E",), "storey": DIRECTIONS}
+# Share of a member lost with its mass up to which what the coordinates leave out of it follows: it has inertia, by which what the
+# member holds alone swings as before however little of it is left, and static it would all but stand still.
+_BALANCED = 0.9
 _SECTIONS = {"beam": ("A", "Iy", "Iz", "J"), "rod": ("A",)}
 
 Beyond = Callable[[float], np.ndarray] | None  # K (r, r) of the share lost or gained
@@ -50,10 +53,12 @@ def of_members(model: Reduced, candidate: Candidate, sign: int = -1) -> list[Rec
         K, M = (summed(member, parts, which) for which in (1, 2))
         heavy = bool(np.abs(M).max() > 0)
         share = -float(np.log(len(set(kinds)) * kinds.count(member.kind) * (1 + heavy)))
-        stiff = sign * K, _beyond(model, member, parts, sign)
-        recipes.append(_recipe(candidate, member, stiff, None, sign, share, model.problem))
+        beyond = _beyond(model, member, parts, sign)
+        recipes.append(_recipe(candidate, member, (sign * K, beyond), None, sign, share, model.problem))
         if heavy:
-            recipes.append(_recipe(candidate, member, stiff, sign * M, sign, share, model.problem))
+            most = np.inf if sign > 0 else _BALANCED
+            alike = beyond and (lambda share, beyond=beyond, most=most: beyond(min(share, most)))
+            recipes.append(_recipe(candidate, member, (sign * K, alike), sign * M, sign, share, model.problem))
     return recipes
 
 

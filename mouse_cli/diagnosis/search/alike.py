@@ -7,16 +7,7 @@ import numpy as np
 from mouse_cli.diagnosis.gates import GATE, MATERIAL
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.found import Found, keep
-from mouse_cli.diagnosis.search.moves import (
-    QUICK,
-    REACH,
-    SECOND,
-    adequate,
-    beside,
-    exchanged,
-    finished,
-    promised,
-)
+from mouse_cli.diagnosis.search.moves import QUICK, REACH, SECOND, adequate, beside, exchanged, finished, promised
 from mouse_cli.diagnosis.search.optima import within
 from mouse_cli.diagnosis.search.study import Study
 
@@ -42,13 +33,14 @@ def same_kind(
 
 def _kinds(study: Study, singles: list[Fit], begun: Found) -> list[Fit]:
     """Kinds of which several may be: those of which `begun` has the best sets, and those that lead alone."""
+    name = lambda one: one.recipes[0].candidate.key
     order = sorted(singles, key=lambda one: -one.log_evidence)
-    able = [one for one in order if len(study.recipes(one.recipes[0].candidate.key)) > 1 and one.c.size]
+    able = [one for one in order if len(study.recipes(name(one))) > 1 and one.c.size]
     best = sorted(begun.items(), key=lambda item: item[1].log_evidence)
     reach = {names[0]: one.log_evidence for names, one in best if len(set(names)) == 1}
-    rest = [one for one in able[_LEADING:] if one.recipes[0].candidate.key in reach]
-    rest = sorted(rest, key=lambda one: -reach[one.recipes[0].candidate.key])
-    return rest[:_PROMISING] + able[: _LEADING if rest else _LEADING + _PROMISING]
+    first = sorted((one for one in able if name(one) in reach), key=lambda one: -reach[name(one)])[:_PROMISING]
+    leading = able[: _LEADING if first else _LEADING + _PROMISING]
+    return first + [one for one in leading if not any(one is each for each in first)]
 
 
 def _grown(study: Study, one: Fit, most: int, found: Found, best: Fit | None, begun: Found) -> bool:

@@ -51,7 +51,8 @@ def _begin(study: Study, begun: Found, fits: list[Fit], most: int) -> None:
         names = tuple(name for name, each in study.known.items() if each.group == group)
         if all(recipe.candidate.group == group for recipe in best.recipes):
             for name in names:
-                keep(begun, renamed(study, best, name))
+                if any(recipe.candidate.key != name for recipe in best.recipes):
+                    keep(begun, renamed(study, best, name))
             keep(begun, exchanged(study, best_of(begun, 1)[0], names))
 
 

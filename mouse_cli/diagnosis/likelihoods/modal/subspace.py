@@ -36,7 +36,7 @@ _MODES = 70  # of them at most from the eigensolver
 _MOVED = 30  # responses to what the parameters do
 _PLACES = 40  # degrees of freedom where a force may act
 _CLOSER = 4  # one in so many of them about the best of the others
-_EACH = 20_000  # degrees of freedom worked on at once
+_EACH, _COLUMNS = 20_000, 32  # degrees of freedom, and vectors, worked on at once
 
 
 class Basis:
@@ -94,11 +94,18 @@ class Basis:
             kept
         ]
 
-    def orthonormal(self) -> tuple[np.ndarray, np.ndarray]:
-        """The same with V'MV = I to rounding, of which nothing but what an element set gives may be left where that is missing."""
-        V, eigenvalues = self.ritz()
-        R = np.linalg.cholesky(V.T @ self.space.operator.mass(V.T).T)
-        return np.ascontiguousarray(np.linalg.solve(R, V.T).T), eigenvalues
+    def orthonormal(self, K: Matrix) -> tuple[np.ndarray, np.ndarray]:
+        """The same with V'MV = I and V'KV diagonal to rounding, of which no more than what a member or an element set gives may be
+        left where that is missing.
+        """
+        from scipy.linalg import eigh
+
+        V, mass = self.ritz()[0], self.space.operator.mass
+        blocks = [slice(first, first + _COLUMNS) for first in range(0, V.shape[1], _COLUMNS)]
+        stiff = np.hstack([V.T @ (K @ V[:, own]) for own in blocks])
+        heavy = np.hstack([V.T @ mass(V[:, own].T).T for own in blocks])
+        eigenvalues, S = eigh((stiff + stiff.T) / 2, (heavy + heavy.T) / 2)
+        return V @ S, eigenvalues
 
 
 def large(
@@ -134,7 +141,7 @@ def large(
         places = np.concatenate([places, beside])
     if problem.groups:
         basis.motions(*without_sets(model, K, M, basis.sigma, basis.space.V, last))
-    model = built(problem, total, theta, *basis.orthonormal(), by, stack)
+    model = built(problem, total, theta, *basis.orthonormal(K), by, stack)
     lowest = model.V[:, : min(model.r, last + 2)]
     by_all = static(problem, model.motion, model.bars, basis.sigma, basis.space.operator.columns, lowest)
     return replace(model, places=np.sort(places), static=by_all)
