@@ -6,6 +6,7 @@ import pytest
 
 from mouse_cli.diagnosis.search import alone as early
 from mouse_cli.diagnosis.search.found import Found
+from mouse_cli.model.diagnosis import Site
 
 GROUPS = {"turns": "support", "in-a-wall": "support", "mass": "mass"}
 
@@ -13,7 +14,8 @@ GROUPS = {"turns": "support", "in-a-wall": "support", "mass": "mass"}
 def of(nats: float, misfit: float, *names: str) -> SimpleNamespace:
     """A fit of so many mechanisms on 100 degrees of freedom."""
     recipes = tuple(SimpleNamespace(candidate=SimpleNamespace(key=name, group=GROUPS[name]), parts=()) for name in names)
-    return SimpleNamespace(log_evidence=nats, misfit=misfit, dof=100, recipes=recipes)
+    sites = (Site("node", ()),) * len(names)
+    return SimpleNamespace(log_evidence=nats, misfit=misfit, dof=100, recipes=recipes, sites=sites)
 
 
 @pytest.fixture

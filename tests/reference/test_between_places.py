@@ -340,3 +340,10 @@ def test_two_places_that_predict_the_same_are_two():
     assert kept(node(1.0), node(1.1)) == 1
     assert kept(node(1.0), node(3.0)) == 2
     assert kept(brace(1, 5), brace(2, 4)) == 2
+
+
+def test_mass_of_the_columns_of_a_storey_sways_with_their_tops():
+    """Of columns clamped at both ends 13/35 of what lies on them, by the cubic that they bend in, as a mass at their tops."""
+    m = 0.01 * KG / H
+    expected = 24 * EI / H**3 / (KG + 2 * 13 / 35 * m * H)
+    assert lowest(model(PORTAL), "floor-mass", [m], "the columns between Y = 0 and 3") == pytest.approx(expected, rel=1e-4)

@@ -17,14 +17,14 @@ from mouse_cli.diagnosis.search import several as search
 from mouse_cli.diagnosis.search.added_up import Effects
 from mouse_cli.diagnosis.search.descents import best
 from mouse_cli.diagnosis.search.fit import Fit, fit
-from mouse_cli.diagnosis.search.found import key, material
+from mouse_cli.diagnosis.search.found import Found, keep, key, material
 from mouse_cli.diagnosis.search.moves import adequate
 from mouse_cli.diagnosis.search.rank import _log_prior
 from mouse_cli.diagnosis.search.several import _exchangeable, _fewer, same_kind
 from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
-from mouse_cli.model.diagnosis import NAMED, Choices
+from mouse_cli.model.diagnosis import NAMED, Choices, Site
 
 LOCAL = ("mass", "ground-spring", "stiffness-loss")
 PLACES = (6, 10, 15, 19, 24, 28)  # of 30 elements, where point masses of 0.1 of the beam stand
@@ -98,8 +98,21 @@ def test_several_of_one_kind_and_as_many_as_are_needed():
 
 def of(log_evidence: float, *names: str):
     """A fit of mechanisms of those keys."""
-    recipes = tuple(SimpleNamespace(candidate=SimpleNamespace(key=name), parts=()) for name in names)
-    return SimpleNamespace(recipes=recipes, log_evidence=log_evidence, c=np.zeros(len(names)), bearable=Fit.bearable)
+    recipes = tuple(SimpleNamespace(candidate=SimpleNamespace(key=name, group=name), parts=()) for name in names)
+    own = {"sites": (Site("node", ()),) * len(names), "c": np.zeros(len(names)), "bearable": Fit.bearable}
+    return SimpleNamespace(recipes=recipes, log_evidence=log_evidence, **own)
+
+
+@pytest.mark.parametrize(
+    ("other", "at", "kept"),
+    [("local-stiffness", (1, 2), False), ("local-stiffness", (1,), True), ("mass", (1, 2), True)],
+)
+def test_what_a_mechanism_does_is_not_undone_by_another_at_the_same_elements(other, at, kept):
+    """Braces twice as stiff, their mass alike, and half as stiff are braces of twice the mass, which has a name."""
+    both = of(-10.0, "added-stiffness", other)
+    both.sites = (Site("element", (1, 2)), Site("element", at))
+    keep(found := Found(), both)
+    assert bool(found) == kept
 
 
 def test_what_is_not_needed_is_material_to_nothing():

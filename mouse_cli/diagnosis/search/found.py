@@ -2,6 +2,7 @@
 
 from collections import Counter
 from collections.abc import Mapping
+from itertools import combinations
 
 import numpy as np
 
@@ -9,6 +10,7 @@ from mouse_cli.diagnosis.gates import MATERIAL
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.diagnosis.search.superposed import text
 
+_OPPOSED = ({"added-stiffness", "local-stiffness"}, {"added-mass", "mass-loss"}, {"mass", "mass-loss"})  # groups
 _TRIFLE = 0.01  # of a range, or of a prior standard deviation, by which two places to begin from are as one
 
 
@@ -38,12 +40,20 @@ def best_of(found: Mapping[tuple[str, ...], Fit], count: int) -> list[Fit]:
 
 
 def keep(found: Found, one: Fit | None) -> None:
-    """Into `found` a fit that is better than what is there."""
-    if one is None:
+    """Into `found` a fit that is better than what is there, and none of whose mechanisms undoes another."""
+    if one is None or _undone(one):
         return
     other = found.get(key(one))
     if other is None or one.log_evidence > other.log_evidence:
         found[key(one)] = one
+
+
+def _undone(one: Fit) -> bool:
+    """Whether two mechanisms of a set are opposed at the very same elements: what is left, their mass or stiffness alone,
+    has a name of its own.
+    """
+    at = [(recipe.candidate.group, site.kind, site.ids) for recipe, site in zip(one.recipes, one.sites, strict=True)]
+    return any(a[1:] == b[1:] and {a[0], b[0]} in _OPPOSED for a, b in combinations(at, 2) if a[2])
 
 
 def material(one: Fit, smaller: list[Fit]) -> bool:
