@@ -124,3 +124,35 @@ def test_without_the_diagonal_the_deck_predicts_its_local_modes_too():
     assert one.misfit < 0.3 * one.dof
     assert np.abs(one.point.residual[:MODES]).max() < 0.5
     assert one.point.x[0] == pytest.approx(0.0, abs=0.05)
+
+
+def test_a_first_look_in_few_coordinates_bends_a_short_member_that_is_softer():
+    """Two booms and a latch of a fortieth of their length between them, nine tenths of it lost: as in all coordinates."""
+    at = np.concatenate([np.linspace(0, 3, 16), np.linspace(3.15, 6.15, 16)])
+    nodes = ", ".join(f"{{{n}: [{x:.6g}, 0]}}" for n, x in enumerate(at, 1))
+    beams = [f"{{id: {n}, type: beam, nodes: [{n}, {n + 1}], material: steel, section: {'latch' if n == 16 else 'boom'}}}"
+             for n in range(1, 32)]  # fmt: skip
+    text = f"""\
+mouse: 1
+model:
+  structure:
+    plane: XY
+    nodes: [{nodes}]
+    materials: {{steel: {{E: 2e11, density: 7850}}}}
+    sections: {{boom: {{A: 0.002, Iz: 1e-6}}, latch: {{A: 0.002, Iz: 1.1e-6}}}}
+    elements: [{", ".join(beams)}]
+    supports: {{1: all}}
+parameters:
+  - {{name: E, material: steel, property: E, sd: 5 %}}
+test:
+  modes: {{number: [1, 2, 3, 4], frequency: [3, 19, 53, 104], frequency_sd: 1 %}}
+"""
+    problem = assemble(yaml_deck.read(text, "booms.yaml"))
+    study = Study(reduced(problem, problem.prior.mean))
+    assert study.coarse.model.r < study.model.r
+    found = []
+    for each in (study, study.coarse):
+        (recipe,) = [one for one in each.recipes("member") if one.site(one.grid[0]).text == "element 16"]
+        x = np.concatenate([np.zeros(each.k), recipe.coordinates(np.array([0.9]))])
+        found.append(each.kind(each.model, (recipe,)).point(x).eigenvalues[:4])
+    assert found[1] == pytest.approx(found[0], rel=2e-3)

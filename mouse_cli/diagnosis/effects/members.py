@@ -9,7 +9,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
 from mouse_cli.diagnosis.effects.element_sets import missing
-from mouse_cli.diagnosis.effects.losses import LOST, by_effect, matrices_of
+from mouse_cli.diagnosis.effects.losses import LOST, matrices_of
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
@@ -21,7 +21,7 @@ from mouse_cli.model.problem import Problem
 
 _MOST = 240  # members that are looked at: those that hold most energy in the lowest modes
 _HELD = 1e-6  # share of the energy of a mode below which a member has no part in it
-_FEW = 24  # members that a search in few coordinates knows to stretch
+_FEW, _WAYS = 24, 2  # ways that a search in few coordinates knows members to soften in, and of one member
 _TELLS = 0.01  # share of an eigenvalue that is lost with such a member, at least
 _LOST, _GAINED = Unknown(LOST, "1", 0.02, 0.99), Unknown("share gained", "1", 0.02, 20.0)
 # Of a member that is missing, its mass alike: a hundredth of a diagonal is as stiff as the chords that do what it did, and what is
@@ -74,32 +74,34 @@ def _beyond(model: Reduced, member: Member, parts: dict[int, Part], sign: int) -
     return lambda share: scale * left.correction(sign * share)
 
 
-def stretching(model: Reduced) -> np.ndarray:
-    """Pairs of forces (c, r) by which members hold their ends apart: those whose loss tells most, few at most; see `loosened`."""
+def softening(model: Reduced) -> np.ndarray:
+    """Forces (c, r) by which members hold the rest as it vibrates: those first whose loss tells most, few at most; see `loosened`.
+
+    Of a member K_e those by which it bears the lowest modes: K_e v_j = sum of s b, with b'K^-1 b = 1.
+    """
     if model.motion is None:
         return np.zeros((0, model.r))
     parts: dict[int, Part] = {}
     alone = [member for member in members(model.problem.mesh) if member.kind == ONE]
-    return by_effect(
-        model, np.array([_stretch(model, member, parts) for member in alone]).reshape(-1, model.r), _TELLS
-    )[:_FEW]
+    found = [_borne(model, member, parts) for member in alone]
+    tells, b = (np.concatenate([each[i] for each in found]) if found else np.zeros((0, model.r)) for i in range(2))
+    order = np.argsort(-tells, kind="stable") if found else np.zeros(0, int)
+    return b[order[tells[order] >= _TELLS]][:_FEW] if found else b
 
 
-def _stretch(model: Reduced, member: Member, parts: dict[int, Part]) -> np.ndarray:
-    """b (r,), where b b' is the stiffness of a straight member against elongation."""
-    mesh, soft, nodes, motion = model.problem.mesh, 0.0, [], []
+def _borne(model: Reduced, member: Member, parts: dict[int, Part]) -> tuple[np.ndarray, np.ndarray]:
+    """How much of an eigenvalue is lost with each of the strongest forces (_WAYS,) of a member, and these (_WAYS, r)."""
+    count, rates = model.low_modes(), np.maximum(model.eigenvalues, 1e-9 * model.eigenvalues[-1])
+    borne, held = np.zeros((model.r, count)), []
     for s, i in member.elements:
         if s not in parts:
             parts[s] = of_set(model, s)
-        u, K = parts[s][0][i], parts[s][1][i]
-        pair = mesh.elements[s].nodes[i]
-        along = np.diff(mesh.coordinates[pair], axis=0)[0]
-        along = along / max(float(np.linalg.norm(along)), 1e-300)
-        soft += 1 / max(float(along @ K[6:9, 6:9] @ along), 1e-300)
-        nodes += pair.tolist()
-        motion += [along @ u[:3], along @ u[6:9]]
-    first, last = ([n for n, node in enumerate(nodes) if nodes.count(node) == 1] + [0, 0])[:2]
-    return (motion[last] - motion[first]) / np.sqrt(soft)
+        u, K = parts[s][0][i] / np.sqrt(rates), parts[s][1][i]
+        borne += u.T @ (K @ u[:, :count])
+        held.append((u, K))
+    ways, size, _ = (each[..., :_WAYS] for each in np.linalg.svd(borne, full_matrices=False))
+    share = sum(np.einsum("iw,ij,jw->w", u @ ways, K, u @ ways) for u, K in held)
+    return size**2 / (1 - _LOST.upper * np.minimum(share, 1.0)), (ways * np.sqrt(rates)[:, None]).T
 
 
 def of_set(model: Reduced, s: int) -> Part:

@@ -4,7 +4,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.effects.hinges import ends
 from mouse_cli.diagnosis.effects.losses import loosened
-from mouse_cli.diagnosis.effects.members import stretching
+from mouse_cli.diagnosis.effects.members import softening
 from mouse_cli.diagnosis.likelihoods.modal import scales
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 
@@ -13,7 +13,7 @@ def lowest(model: Reduced, count: int) -> Reduced:
     """A model in its `count` lowest coordinates, and those by which ends of lines, springs and members soften; or itself."""
     if count >= model.r:
         return model
-    forces = np.concatenate([ends(model), loosened(model), stretching(model)])[: model.r - count, count:]
+    forces = np.concatenate([ends(model), loosened(model), softening(model)])[: model.r - count, count:]
     moved = forces / (model.eigenvalues[count:] + scales.lowest(model))
     Q = np.eye(model.r)[:, : count + len(moved)]
     Q[count:, count:] = np.linalg.qr(moved.T)[0]
