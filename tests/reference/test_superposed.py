@@ -8,7 +8,6 @@ import pytest
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.search import looks as searched
-from mouse_cli.diagnosis.search import superposed
 from mouse_cli.diagnosis.search.added_up import Effects
 from mouse_cli.diagnosis.search.descents import tried
 from mouse_cli.diagnosis.search.fit import fit
@@ -142,8 +141,7 @@ def test_what_was_looked_at_at_several_places_together_only_is_in_no_pair():
 def test_the_best_look_beside_a_cause_is_among_those_that_are_taken(name, monkeypatch):
     """At most so many of all places and sizes are looked at exactly, and the best of all of them is one."""
     few_at_most = 64
-    for each in (searched, superposed):
-        monkeypatch.setattr(each, "KEPT", few_at_most)
+    monkeypatch.setattr(searched, "KEPT", few_at_most)
     model = chain_with({5: 0.4}, {16: 4e3})
     study = Study(model)
     first = tried(study, "mass", (), np.zeros(study.k), 1)[0][0]

@@ -16,7 +16,7 @@ from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.data import Data
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.turning import measured, turned
-from mouse_cli.diagnosis.search import study, superposed
+from mouse_cli.diagnosis.search import looks
 from mouse_cli.diagnosis.search.fit import fit
 from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.diagnosis.validate.held_out import held_out
@@ -219,8 +219,7 @@ def test_a_look_at_each_close_mode_by_itself_keeps_what_is_best(name, monkeypatc
     model = reduced(problem, problem.prior.mean, EigenSolver(lambda text: None))
     every = Study(model).looks(name, np.zeros(model.L.shape[1]), ())
     kept = len(every) // 3
-    for module in (study, superposed):
-        monkeypatch.setattr(module, "KEPT", kept)
+    monkeypatch.setattr(looks, "KEPT", kept)
     few = Study(model).looks(name, np.zeros(model.L.shape[1]), ())
     assert len(few) <= kept
     assert [(i, *x) for _, i, x in few[:6]] == [(i, *x) for _, i, x in every[:6]]

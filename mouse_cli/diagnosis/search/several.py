@@ -31,6 +31,7 @@ from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.diagnosis.validate.held_out import held_out_density
 
 FURTHER = 0.2  # p-value of the best set below which a larger one may gain what its prior takes, some ten nats
+_BEHIND = 25.0  # times the misfit of the best alone, from which on none begins a pair beside one that explains the data
 _SWAPPED = 4  # pairs whose aliases are tried
 _PAIRED, _WIDE = 8, 5  # candidates that are tried in pairs; groups of which the best is tried with every candidate
 _ROUNDS = 3  # of aliases
@@ -169,7 +170,10 @@ def pairs(study: Study, singles: list[Fit], begun: Found | None = None) -> list[
     if not found:
         added_up(study, 2, found, singles)
     centred(study, leading[0])
+    least = min(one.misfit for one in leading)
     for first in leading:
+        if first.misfit > _BEHIND * least and any(len(two.recipes) == 2 and adequate(two, GATE) for two in found.values()):
+            continue
         any_of = any(first is one for one in wide)
         beside(study, first, study.known if any_of else names, found)
     done: list[Fit] = []
