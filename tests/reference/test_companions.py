@@ -10,7 +10,8 @@ from mouse_cli.diagnosis import verdict as decided
 from mouse_cli.diagnosis.companions import loose, shared
 from mouse_cli.diagnosis.effects.change import PLACE, Unknown
 from mouse_cli.diagnosis.verdict import decide
-from mouse_cli.model.diagnosis import NAMED, ONE_OF, Cause, Diagnosis, Explanation, Site
+from mouse_cli.model.diagnosis import BY_DECK, NAMED, ONE_OF, UNKNOWN, Cause, Diagnosis, Explanation, HeldOut, Site
+from mouse_cli.model.prediction import Score
 from mouse_cli.report.verdict_sentences import sentences
 
 
@@ -126,3 +127,21 @@ def test_a_set_of_which_no_site_is_sure_is_at_one_of_several(monkeypatch):
     best = made_up("mass@0.7", elsewhere=((made_up("mass@0.2"), 0.5),))
     verdict = decided.judge(ranked(best, BARE, p=(0.999, 0.001)), True, None)
     assert (verdict.kind, verdict.placed, verdict.certain) == (ONE_OF, False, None)
+
+
+@pytest.mark.parametrize(("alone", "named"), [(100.0, True), (900.0, False)])
+def test_of_a_set_that_what_is_held_out_refutes_only_that_is_named_which_carries_it(monkeypatch, alone, named):
+    """A foot leaves a tenth of the misfit, or nearly all of it: what was put beside it is open, or nothing has a name."""
+    score = lambda density, p: Score(0.01, density, 0.0, np.ones(2), np.ones(2), np.ones(2), p=p)
+    proof = HeldOut(BY_DECK, ("mode 8", "mode 9"), np.ones(2), score(-900.0, 0.0), score(-90.0, 1e-9))
+    monkeypatch.setattr(decided, "held_out", lambda *given: proof)
+    monkeypatch.setattr(decided, "averaged", lambda *given: None)
+    monkeypatch.setattr(decided, "doubtful", lambda *given: True)
+    best = made_up("support@0.0", "local-stiffness@0.6")
+    foot, none = made_up("support@0.0", misfit=alone), made_up(misfit=1000.0)
+    verdict = decided.judge(ranked(best, foot, none, p=(0.998, 0.001, 0.001)), True, None)
+    assert verdict.kind == (NAMED if named else UNKNOWN)
+    if named:
+        assert verdict.certain.which == (0,) and dict(verdict.certain.companions)["local-stiffness"] > 0.99
+    else:
+        assert verdict.refuted == ("local-stiffness + support",)
