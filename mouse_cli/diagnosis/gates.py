@@ -3,6 +3,7 @@
 from math import comb, log
 
 from mouse_cli.model.diagnosis import UNPROVED
+from mouse_cli.model.prediction import REFUTED
 
 NONE = 0.3
 """Prior probability that nothing is missing."""
@@ -37,7 +38,7 @@ ODDS = 3.0
 MATERIAL = 3.0
 """Log evidence that each further mechanism of a set, or part of a mechanism, must gain."""
 
-GATE = 1e-3
+GATE = REFUTED
 """p-value of a misfit, of a shift of the parameters or of both below which it is not chance."""
 
 SEVERAL = 1e-2

@@ -23,7 +23,7 @@ class Score:
 
 
 BY_DECK, BY_MODE = "held out by the deck", "each mode from the others"
-REFUTED = 1e-3  # p-value of data that no fit has seen below which a model is refuted by them
+REFUTED = 1e-3  # p-value of data below which they refute a model
 
 
 @dataclass(frozen=True)

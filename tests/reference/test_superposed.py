@@ -6,13 +6,14 @@ import numpy as np
 import pytest
 
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
+from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.search import looks as searched
 from mouse_cli.diagnosis.search.added_up import Effects
 from mouse_cli.diagnosis.search.descents import tried
 from mouse_cli.diagnosis.search.fit import fit
 from mouse_cli.diagnosis.search.moves import centred, renamed, together
-from mouse_cli.diagnosis.search.study import Study
+from mouse_cli.diagnosis.search.study import MOVED, Study
 from mouse_cli.diagnosis.search.superposed import KEPT, Alone, chosen
 from mouse_cli.dynamics.eigen import dense_solution
 from mouse_cli.model.modal_test import ModalTest
@@ -192,3 +193,15 @@ def test_effects_add_up_beside_what_turns_the_modes(stiffness, turned):
     found = coarse.looks("mass", x, first.recipes)[0][0]
     assert coarse.promise("mass", x, first.recipes) == pytest.approx(found if turned else before, rel=1e-6)
     assert not turned or abs(before / found - 1) > 0.1
+
+
+def test_where_causes_are_weighed_depends_on_the_fit_alone():
+    """Processes of a pool have other fits behind them: within the same trifle they would weigh causes at other parameters."""
+    model = chain_with({5: 0.4}, {})
+    at = lambda z: fit(Model(model), np.zeros(0), np.array([z]), most=0)
+    asked, fresh = Study(model), Study(model)
+    asked.about(at(0.5))
+    apart = MOVED / 0.03  # of the prior sd of the factor
+    theta = [each.about(at(0.5 + 0.6 * apart)).model.theta for each in (asked, fresh)]
+    assert theta[0].tobytes() == theta[1].tobytes()
+    assert abs(theta[0][0] - model.parameters(np.array([0.5 + 0.6 * apart]))[0]) <= MOVED * 1.000001

@@ -169,10 +169,12 @@ def pairs(study: Study, singles: list[Fit], begun: Found | None = None) -> list[
     found = Found(begun)
     if not found:
         added_up(study, 2, found, singles)
-    centred(study, leading[0])
+    explained = lambda: any(len(two.recipes) == 2 and adequate(two, GATE) for two in found.values())
+    if not explained():
+        centred(study, leading[0])
     least = min(one.misfit for one in leading)
     for first in leading:
-        if first.misfit > _BEHIND * least and any(len(two.recipes) == 2 and adequate(two, GATE) for two in found.values()):
+        if first.misfit > _BEHIND * least and explained():
             continue
         any_of = any(first is one for one in wide)
         beside(study, first, study.known if any_of else names, found)

@@ -124,14 +124,19 @@ class Study(Looks):
         return all(text(recipe) in map(text, self.recipes(recipe.candidate.key)) for recipe in one.recipes)
 
     def about(self, one: Fit) -> "Study":
-        """The same, or one of the last there were, at parameters from which those of a fit differ by no more than a trifle."""
-        theta = one.model.base.parameters(one.point.x[: self.k])
-        for study in self._about:
-            near = np.all(np.abs(theta - study.model.theta) <= MOVED * np.abs(study.model.theta))
-            if near and study._knows(one):
-                return study
-        self._about = [self, self.at(one), *self._about[1:_ABOUT]]
-        return self._about[1]
+        """The same at parameters from which those of a fit differ by no more than a trifle.
+
+        The nearest on a grid, whatever was asked before, so that all processes of a pool weigh causes alike.
+        """
+        theta, here = one.model.base.parameters(one.point.x[: self.k]), self.model.theta
+        step = 2 * MOVED * np.abs(here)
+        steps = np.rint(np.divide(theta - here, step, out=np.zeros_like(step), where=step > 0))
+        near = np.where(step > 0, here + steps * step, theta)
+        try:
+            there = self.moved(near)
+        except (IndefiniteError, np.linalg.LinAlgError):
+            return self.at(one)
+        return there if there._knows(one) else self.at(one)
 
     def moved(self, theta: np.ndarray) -> "Study":
         """The same at theta (p,), or the one of the last there were that is there."""
