@@ -1,5 +1,7 @@
 """Mass along the bars of one floor or storey, of one section or of one entry of the deck."""
 
+from functools import lru_cache
+
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Recipe, Unknown, proportional
@@ -26,7 +28,12 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
         return []
     bar_of = {at: bar for run in found for at, bar in zip(_elements(run), run.members.tolist(), strict=True)}
     parts = _parts(model, found, set(bar_of))
-    return [_recipe(model, candidate, name, own, [bar_of[at] for at in own], len(parts)) for own, name in parts[:_MOST]]
+    of_bar = lru_cache(None)(lambda bar: uniform(model.bars, bar))
+    made = []
+    for own, name in parts[:_MOST]:
+        bars = [bar_of[at] for at in own]
+        made.append(_recipe(model, candidate, name, own, model.bars.length[bars], sum(map(of_bar, bars)), len(parts)))
+    return made
 
 
 def _elements(run: Line) -> list[Element]:
@@ -61,9 +68,16 @@ def _parts(model: Reduced, found: list[Line], every: set[Element]) -> list[tuple
 
 
 def _recipe(
-    model: Reduced, candidate: Candidate, name: str, own: tuple[Element, ...], bars: list[int], count: int
+    model: Reduced,
+    candidate: Candidate,
+    name: str,
+    own: tuple[Element, ...],
+    lengths: np.ndarray,
+    M: np.ndarray,
+    count: int,
 ) -> Recipe:
-    mesh, lengths = model.problem.mesh, model.bars.length[bars]
+    """lengths (e,) of the elements `own`; M (r, r) of one unit per length on them; count: of all such sets."""
+    mesh = model.problem.mesh
     m = Unknown("mass per length", "kg/m", *(BODY * total_mass(model) / lengths.sum()))
     ids = tuple(int(mesh.elements[s].ids[i]) for s, i in own)
     ends = [mesh.coordinates[mesh.elements[s].nodes[i]] for s, i in own]
@@ -77,7 +91,6 @@ def _recipe(
         edit.bind(f"added mass of {name}", beams, ("nonstructural_mass",), unit="kg/m")
         return edit.done()
 
-    M = sum(uniform(model.bars, bar) for bar in bars)
     return proportional(candidate, m, 3, site, -float(np.log(count)), extend, M=M)
 
 
