@@ -101,7 +101,7 @@ def _companions(found: Diagnosis) -> str:
     if found.certain is None:
         return ""
     groups, p = found.certain.companions[0]
-    if found.held_out is not None and found.held_out.refuted:
+    if groups != "none" and found.held_out is not None and found.held_out.refuted:
         return (
             f"What acts beside it is open: {companion(found, groups)} beside it explains what was fitted, and fails on what "
             f"the deck holds out ({p_value(found.held_out.revised.p)})."
