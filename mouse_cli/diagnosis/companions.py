@@ -61,10 +61,10 @@ def carrying(ranking: Ranking, first: Fit) -> Shared | None:
     """
     own, every, reach = _mechanisms(first), list(_explanations(ranking)), SAME_SITE * span(first.model.base)
     none, least = ranking.baseline.misfit, CARRIES * (ranking.baseline.misfit - first.misfit)
+    enough = [one for one in ranking.fits if len(one.recipes) == 1 and none - one.misfit > least]
     for i in steady(first):
         parts = set(first.recipes[i].parts)
-        there = lambda one, i=i, parts=parts: _matched([own[i]], _mechanisms(one), reach) or parts & set(one.recipes[0].parts)
-        if any(len(one.recipes) == 1 and none - one.misfit > least and there(one) for one in ranking.fits):
+        if any(parts & set(one.recipes[0].parts) or _matched([own[i]], _mechanisms(one), reach) for one in enough):
             return _summed((i,), own, every, reach)
     return None
 

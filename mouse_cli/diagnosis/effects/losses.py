@@ -34,7 +34,7 @@ def of_elements(model: Reduced, candidate: Candidate, sign: int = -1, directed: 
     of springs that are one mount, or one kind, or next to one another in a row, alike.
     """
     found = _parts(model, directed)
-    sets = _strained(model, _mounts(model, found)) + _strained(model, _runs(model, found), _RUNS) if directed else []
+    sets = _strained(model, _mounts(model, found)) + _runs(model, found) if directed else []
     count = len({each[:2] for each in found}) + len(sets)
     parts = [((each[:2],), *each[2:]) for each in _strained(model, found)] + sets
     return [_elements(model, candidate, each, count, sign) for each in parts]
@@ -69,12 +69,21 @@ def _parts(model: Reduced, directed: bool) -> list[tuple]:
     return [(s, *part) for s, parts in enumerate(found) for part in parts]
 
 
-def _strained(model: Reduced, found: list, most: int = _MOST) -> list:
+def _strained(model: Reduced, found: list) -> list:
     """Those of (..., K_e (r, r)) that hold most energy in the lowest modes, of those that hold any."""
+    return [found[i] for i in _most_held([_held(model, each[-1]) for each in found], _MOST)]
+
+
+def _held(model: Reduced, K: np.ndarray) -> np.ndarray:
+    """Shares (m,) of the energies of the lowest modes that K (r, r) holds."""
     count = model.low_modes()
-    scale = np.maximum(model.eigenvalues[:count], 1e-9 * model.eigenvalues[-1])
-    energy = np.array([(np.diag(each[-1])[:count] / scale).max() for each in found])
-    return [found[i] for i in sorted(np.argsort(-energy)[:most]) if energy[i] > 1e-6]
+    return np.diag(K)[:count] / np.maximum(model.eigenvalues[:count], 1e-9 * model.eigenvalues[-1])
+
+
+def _most_held(held: list[np.ndarray], most: int) -> list[int]:
+    """Numbers of those that hold the largest share of a mode, in order, of those that hold any."""
+    energy = np.array([each.max() for each in held])
+    return [i for i in sorted(np.argsort(-energy)[:most].tolist()) if energy[i] > 1e-6]
 
 
 def _stiffness(model: Reduced, s: int, directed: bool) -> list[tuple[int, str, float, np.ndarray]]:
@@ -142,9 +151,15 @@ def _mounts(model: Reduced, found: list[tuple]) -> list[tuple]:
 
 
 def _runs(model: Reduced, found: list[tuple]) -> list[tuple]:
-    """Springs and joints next to one another in a row, but not all of one kind: as `_mounts` has them."""
+    """Springs and joints next to one another in a row, but not all of one kind, that hold most energy: as `_mounts` has them.
+
+    Runs are many, and matrices are summed of those alone that are looked at.
+    """
     K = {(s, i): own for s, i, direction, _, own in found if not direction}
-    return [(of, "", 1.0, sum(K[member] for member in of)) for of in runs(model.problem.mesh, list(K))] if K else []
+    held = {member: _held(model, own) for member, own in K.items()}
+    every = runs(model.problem.mesh, list(K)) if K else []
+    chosen = _most_held([sum(held[member] for member in of) for of in every], _RUNS)
+    return [(every[n], "", 1.0, sum(K[member] for member in every[n])) for n in chosen]
 
 
 def _elements(model: Reduced, candidate: Candidate, part: tuple, count: int, sign: int) -> Recipe:

@@ -79,14 +79,13 @@ def softening(model: Reduced) -> np.ndarray:
 
     Of a member K_e those by which it bears the lowest modes: K_e v_j = sum of s b, with b'K^-1 b = 1.
     """
-    if model.motion is None:
+    alone = [] if model.motion is None else [each for each in members(model.problem.mesh) if each.kind == ONE]
+    if not alone:
         return np.zeros((0, model.r))
     parts: dict[int, Part] = {}
-    alone = [member for member in members(model.problem.mesh) if member.kind == ONE]
-    found = [_borne(model, member, parts) for member in alone]
-    tells, b = (np.concatenate([each[i] for each in found]) if found else np.zeros((0, model.r)) for i in range(2))
-    order = np.argsort(-tells, kind="stable") if found else np.zeros(0, int)
-    return b[order[tells[order] >= _TELLS]][:_FEW] if found else b
+    tells, b = map(np.concatenate, zip(*(_borne(model, member, parts) for member in alone), strict=True))
+    order = np.argsort(-tells, kind="stable")
+    return b[order[tells[order] >= _TELLS]][:_FEW]
 
 
 def _borne(model: Reduced, member: Member, parts: dict[int, Part]) -> tuple[np.ndarray, np.ndarray]:

@@ -10,12 +10,14 @@ from mouse_cli.model.mesh import Mesh
 Member = tuple[int, int]  # number of a set, and in it
 
 _TYPES = ("spring", "joint")
-_LEAST = 4  # in a row
+_LEAST, _LONGEST = 4, 40  # in a row, and in a run
 _ON_LINE = 1e-6  # distance from a line, over the extent of the mesh, up to which a place is on it
 
 
 def runs(mesh: Mesh, members: list[Member]) -> list[tuple[Member, ...]]:
-    """Two and more of `members` of one kind next to one another in a row, but not the whole of it, each run once."""
+    """Two and more of `members` of one kind next to one another in a row, but not the whole of it nor more than _LONGEST, each
+    run once.
+    """
     kinds: dict[tuple, list[Member]] = {}
     for s, i in members:
         own = mesh.elements[s]
@@ -26,7 +28,7 @@ def runs(mesh: Mesh, members: list[Member]) -> list[tuple[Member, ...]]:
     for own in kinds.values():
         places = np.array([mesh.coordinates[mesh.elements[s].nodes[i]].mean(axis=0) for s, i in own])
         for row in _rows(places, _ON_LINE * float(np.ptp(mesh.coordinates, axis=0).max())):
-            for count in range(2, len(row)):
+            for count in range(2, min(len(row), _LONGEST + 1)):
                 found |= {tuple(own[j] for j in row[first : first + count]): None for first in range(len(row) - count + 1)}
     return list(found)
 

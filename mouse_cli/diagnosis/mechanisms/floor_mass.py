@@ -1,6 +1,8 @@
 """Mass along the bars of one floor or storey, of one section or of one entry of the deck."""
 
 from functools import lru_cache
+from itertools import groupby
+from operator import itemgetter
 
 import numpy as np
 
@@ -45,21 +47,20 @@ def _parts(model: Reduced, found: list[Line], every: set[Element]) -> list[tuple
     """Elements of each floor, section and entry, and columns, braces and beams of a storey, with their names; each choice once, and
     none that is all.
     """
-    mesh, named = model.problem.mesh, {}
-    up = upward(mesh)
+    mesh, up, named = model.problem.mesh, upward(model.problem.mesh), {}
     height = float(np.ptp(mesh.coordinates[:, up])) or 1.0
     for run in found:
         low, high = (float(end[up]) for end in run.ends)
         if abs(high - low) < _LEVEL * height:
             named.setdefault(f"the floor at {'XYZ'[up]} = {round(low, 3):g} m", []).extend(_elements(run))
-    for s in sorted({s for s, _ in every}):
+    entries = {s: list(own) for s, own in groupby(sorted(every), key=itemgetter(0))}
+    for s, own in entries.items():
         if section := mesh.elements[s].origin.get("A", ""):
-            named.setdefault(f"section {section}", []).extend(at for at in sorted(every) if at[0] == s)
+            named.setdefault(f"section {section}", []).extend(own)
     for member in members(mesh):
         if member.kind == STOREY and every.issuperset(member.elements):
             named[member.site.text] = list(member.elements)
-    for s in sorted({s for s, _ in every}):
-        named[in_words(tuple(mesh.elements[s].ids.tolist()))] = [at for at in sorted(every) if at[0] == s]
+    named |= {in_words(tuple(mesh.elements[s].ids.tolist())): own for s, own in entries.items()}
     parts: dict[tuple[Element, ...], str] = {}
     for name, own in named.items():
         if 0 < len(own) < len(every):

@@ -98,16 +98,8 @@ class Looks:
             return self.begun.centres.at(before, others)
         return None if before.any() else self.alone
 
-    def keep(self, name: str, looks: list[tuple[float, int, np.ndarray]], alone: Alone | None) -> None:
-        """Looks at a candidate by itself, and what it does there, found by another process."""
-        self._looked.setdefault(_key(name, np.zeros(self.k), ()), looks)
-        if alone is not None:
-            self.alone.setdefault(name, alone)
-
-    def keep_beside(
-        self, name: str, before: np.ndarray, beside: tuple[Recipe, ...], looks: list, alone: Alone | None = None
-    ) -> None:
-        """Looks at a candidate beside others, likewise."""
+    def keep(self, name: str, before: np.ndarray, beside: tuple[Recipe, ...], looks: list, alone: Alone | None) -> None:
+        """Looks at a candidate beside others, or none, and what it does there, found by another process."""
         others = self.own(beside)
         self._looked.setdefault(_key(name, before, others), looks)
         known = None if alone is None else self._centre(before, others)

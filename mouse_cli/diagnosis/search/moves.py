@@ -111,7 +111,8 @@ def _as_promising(study: Study, rest: Fit, name: str, aliases: list[str]) -> lis
 def beside(study: Study, first: Fit, partners: Iterable[str], found: Found) -> None:
     """Into `found` what `first` and the best of `partners` make together, where it is better than what is there."""
     there = study.about(first)
-    names = found.untried(first, _promising(study, there, first, list(partners)))
+    able = [name for name in partners if study.recipes(name)]
+    names = found.untried(first, _promising(study, there, first, able))
     causes, own = Beside.of(first, there), there.own(first.recipes)
 
     def reach(i: int) -> float:
@@ -142,13 +143,13 @@ def _promising(study: Study, there: Study, first: Fit, partners: list[str]) -> l
     if len(partners) <= _PARTNERS:
         return partners
     coarse, causes, looks = there.coarse, Beside.of(first, there), {}
-    promise = {name: coarse.promise(name, first.point.x, first.recipes) for name in partners if study.recipes(name)}
-    most = len(promise) if coarse.centred(first.point.x, first.recipes) else _LOOKED
-    partners = sorted(promise, key=promise.__getitem__)[:most]
+    if not coarse.centred(first.point.x, first.recipes):
+        promise = {name: coarse.promise(name, first.point.x, first.recipes) for name in partners}
+        partners = sorted(partners, key=promise.__getitem__)[:_LOOKED]
 
     def accept(i: int, seen: tuple) -> None:
         looks[partners[i]], alone = seen
-        coarse.keep_beside(partners[i], first.point.x, first.recipes, *seen)
+        coarse.keep(partners[i], first.point.x, first.recipes, *seen)
         if alone is not None and study.pool is not None:
             study.pool.broadcast(learn_beside, causes, partners[i], *seen)
 

@@ -86,7 +86,7 @@ def first_look(study: Study, name: str, reach: float) -> tuple[Looks, Alone | No
 
 def learn(study: Study, name: str, looks: Looks, alone: Alone | None) -> None:
     """Keep what a first look found."""
-    study.coarse.keep(name, looks, alone)
+    study.coarse.keep(name, np.zeros(study.k), (), looks, alone)
 
 
 def single(study: Study, name: str, reach: float) -> Fit | None:
@@ -109,7 +109,7 @@ def look_beside(study: Study, beside: Beside, name: str, reach: float) -> tuple[
 def learn_beside(study: Study, beside: Beside, name: str, looks: Looks, alone: Alone | None) -> None:
     """Keep what a look beside others found."""
     there, own = beside.at(study)
-    there.coarse.keep_beside(name, beside.x, own, looks, alone)
+    there.coarse.keep(name, beside.x, own, looks, alone)
 
 
 def partner(study: Study, beside: Beside, name: str, count: int, most: int, reach: float) -> list[Found]:

@@ -10,7 +10,6 @@ from mouse_cli.diagnosis.effects.change import Recipe
 from mouse_cli.diagnosis.likelihoods.modal.lowest import lowest
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
-from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.search.fit import Fit, descended
 from mouse_cli.diagnosis.search.looks import Looks
 from mouse_cli.diagnosis.search.optima import BEYOND
@@ -34,16 +33,12 @@ class Study(Looks):
     pool: processes that share the search, of the study that it began with.
     """
 
-    def __init__(
-        self,
-        model: Reduced,
-        known: dict[str, Candidate] | None = None,
-        kind: type[Model] = Model,
-        begun: "Study | None" = None,
-    ):
-        super().__init__(model, known, kind, begun)
-        self.pool: Any = None
-        self._about: list[Study] = [self]
+    pool: Any = None
+
+    @cached_property
+    def _about(self) -> "list[Study]":
+        """This one, and the last at other parameters."""
+        return [self]
 
     @cached_property
     def coarse(self) -> "Study":
