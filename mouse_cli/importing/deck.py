@@ -19,7 +19,7 @@ from mouse_cli.importing.thickness import total
 from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.held import Thickness
-from mouse_cli.model.revision import THICKNESS, TO_THE_POWER
+from mouse_cli.model.revision import OF_SPRING, THICKNESS, TO_THE_POWER
 
 E_SD, DENSITY_SD, SPRING_SD = "5 %", "1 %", "20 %"  # what is known of a material and of a spring before the test
 _THICKNESS_SD = "5 %"  # of a shell
@@ -140,9 +140,9 @@ def _parameters(model: InputModel, parts: Parts, keep, system: str) -> list[str]
             lines.append(_parameter(f"density of {name}", material.rho, density, DENSITY_SD, "mass", file))
     for i, group in enumerate(model.groups):
         if group.owner.keyword == "SPRING" and parts.K[i].nnz:
-            k = float(group.owner.lines[min(1, len(group.owner.lines) - 1)].words[0].upper().replace("D", "E"))
+            k = group.constant
             file = keep(f"spring_{_slug(group.name)}", parts.K[i] / k)
-            lines.append(_parameter(f"stiffness of {group.name}", k, of_length, SPRING_SD, "stiffness", file))
+            lines.append(_parameter(OF_SPRING.format(group.name), k, of_length, SPRING_SD, "stiffness", file))
     return lines if len(lines) > 2 else []
 
 

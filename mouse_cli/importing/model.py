@@ -82,6 +82,11 @@ class Group:
         return self.owner.keyword == "SHELL SECTION" and not self.laminate
 
     @property
+    def constant(self) -> float:
+        """Of springs, their stiffness: the first number behind the directions, which SPRINGA has none of."""
+        return float(self.owner.lines[min(1, len(self.owner.lines) - 1)].words[0].upper().replace("D", "E"))
+
+    @property
     def laminate(self) -> bool:
         """Whether its elements have layers."""
         return layered(self.owner)

@@ -79,6 +79,7 @@ def _changes(model: InputModel, revision: Revision, released: set[int]) -> _Chan
         left = float(np.prod([part.left for part in own]))
         e, r = materials.get(group.material.name, (1.0, 1.0)) if group.material is not None else (1.0, 1.0)
         if own:
+            e *= float(np.prod([part.constant / group.constant for part in own if part.constant is not None]))
             groups[id(group)] = left * e + sum(p.stiffness for p in own), left * r + sum(p.mass for p in own)
             notes.setdefault(group.name, []).extend(part.note for part in own)
             gone |= set(group.elements) if left < _GONE else set()

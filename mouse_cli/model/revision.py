@@ -8,6 +8,7 @@ MASS_GAINED, MASS_LOST = "share of element set {} in mass, gained", "share of el
 E_TIMES, DENSITY_TIMES = "E of element set {}, over that of the deck", "density of element set {}, over that of the deck"
 STIFFNESS_LOST, STIFFNESS_GAINED = "share lost by element set {}", "share gained by element set {}"
 ON_SPRINGS = "stiffness of the support {}"
+OF_SPRING = "stiffness of {}"  # a parameter of `mouse import`: the constant of an element set of springs
 THICKNESS, TO_THE_POWER = "thickness of {}", " to the power {}"  # of shells, by their element set
 
 
@@ -66,13 +67,17 @@ class RevisedMass:
 
 @dataclass(frozen=True)
 class RevisedSet:
-    """An element set: its E is `left` times that of its material, plus `stiffness` times the nominal one; its density likewise."""
+    """An element set: its E is `left` times that of its material, plus `stiffness` times the nominal one; its density likewise.
+
+    constant: of a set of springs, its stiffness now; None: as in the job.
+    """
 
     name: str
     left: float = 1.0
     stiffness: float = 0.0
     mass: float = 0.0
     note: str = ""
+    constant: float | None = None
 
 
 @dataclass(frozen=True)

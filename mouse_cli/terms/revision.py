@@ -14,6 +14,7 @@ from mouse_cli.model.revision import (
     E_TIMES,
     MASS_GAINED,
     MASS_LOST,
+    OF_SPRING,
     ON_SPRINGS,
     PART_LEFT,
     STIFFNESS_GAINED,
@@ -47,7 +48,7 @@ _OF_SETS: dict[str, Callable[[float], dict[str, float]]] = {
     DENSITY_TIMES: lambda factor: {"mass": factor - 1.0},
     STIFFNESS_LOST: lambda share: {"stiffness": -share},
     STIFFNESS_GAINED: lambda share: {"stiffness": share},
-    "stiffness of {}": lambda factor: {"stiffness": factor - 1.0},
+    OF_SPRING: lambda constant: {"constant": constant},
 }
 _MOST_SPRINGS = 1000
 

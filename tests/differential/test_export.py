@@ -126,6 +126,28 @@ def test_a_spring_that_was_added_stands_in_the_job_as_a_spring(imported):
     np.testing.assert_allclose(after, [mode["revised_hz"] for mode in found["modes"]], rtol=1e-5)
 
 
+SPRINGS = (
+    "*NODE\n30,0.7,0.1,0.3\n*NSET,NSET=WALL\n30\n*ELEMENT,TYPE=SPRING1,ELSET=PROP\n90,16\n*SPRING,ELSET=PROP\n3\n{}\n"
+    "*ELEMENT,TYPE=SPRINGA,ELSET=STAY\n91,12,30\n*SPRING,ELSET=STAY\n\n{}\n*BOUNDARY\nWALL,1,3\n"
+)
+
+
+@needs_ccx
+def test_springs_of_the_job_go_back_with_their_revised_stiffness(tmp_path, monkeypatch):
+    """Softer prop, stiffer stay, by 20 and 30 per cent; they were once written as the square of their stiffness."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "strip.inp").write_text(job(more=SPRINGS.format("2.0E6", "3.0E6")))
+    assert mouse("import", "strip.inp", "-q") == 0
+    true = frequencies(tmp_path / "true", job(more=SPRINGS.format("1.6E6", "3.9E6")))
+    found = revised(tmp_path, true[:5])
+    words = ["--result", "result.json", "--for", "calculix", "--job", "strip.inp", "--complete", "-o", "revised.inp"]
+    assert mouse("export", "tested.yaml", *words) == 0
+    after = frequencies(tmp_path / "after", (tmp_path / "revised.inp").read_text())
+    np.testing.assert_allclose(after[:5], [mode["revised_hz"] for mode in found["modes"]], rtol=1e-5)
+    np.testing.assert_allclose(after, true, rtol=2e-3)
+
+
 PARTS = {  # mechanism, its site, and how much of it
     "set missing": ("member", "element set B", 1 - 1e-6),
     "set thinner": ("member", "element set A", 0.4),
