@@ -94,7 +94,8 @@ CODES = {
         "import does not agree with the solver",
         "The matrices of the element sets do not sum to those of the whole, or the imported model on its supports has not the "
         "frequencies that CalculiX finds for the job as it was written. Nothing was written. As a warning: shells, such as curved "
-        "ones, do not go by powers of their thickness, and the deck has none for them.",
+        "ones, do not go by powers of their thickness, and the deck has none for them; or S6, S8 and S8R of several sets meet at an "
+        "angle or change their thickness, where CalculiX is softer without one of the sets than K less the K of that set.",
         "Import parts of the model to find which keyword acts otherwise than it is read, and report it.",
     ),
     "MD276": Code(

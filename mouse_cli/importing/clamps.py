@@ -16,7 +16,7 @@ def clamped(model: InputModel, lines: dict[int, Line], faults: Faults) -> dict[i
         for e in group.elements:
             kind, nodes = model.elements[e]
             for node in found.keys() & set(nodes) if kind.startswith("S") and not kind.startswith("SPRING") else ():
-                found[node].append((_thickness(group), _normal(model, kind, nodes)))
+                found[node].append((_thickness(group), normal(model, kind, nodes)))
     clamps, told = {}, set()
     for node, each in found.items():
         thick, normals = np.array([t for t, _ in each]), np.array([n for _, n in each])
@@ -44,7 +44,7 @@ def _thickness(group: Group) -> float:
     return float(group.owner.lines[0].words[0]) if plain else 0.0
 
 
-def _normal(model: InputModel, kind: str, nodes: tuple[int, ...]) -> np.ndarray:
+def normal(model: InputModel, kind: str, nodes: tuple[int, ...]) -> np.ndarray:
     """Unit normal (3,) of a flat shell, by its corners."""
     corners = [model.nodes[n] for n in nodes[: 3 if kind in ("S3", "S6") else 4]]
     normal = np.cross(corners[1] - corners[0], corners[-1] - corners[0])

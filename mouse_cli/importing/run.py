@@ -11,6 +11,7 @@ from mouse_cli.importing.bars.run import ImportedBars, bars_of, imported_bars
 from mouse_cli.importing.cards import Card
 from mouse_cli.importing.checks import Checked, begin, check
 from mouse_cli.importing.deck import units, write
+from mouse_cli.importing.knots import knots
 from mouse_cli.importing.model import InputModel
 from mouse_cli.importing.read import read
 from mouse_cli.importing.separate import Parts, parts
@@ -75,7 +76,7 @@ def imported(
         thick = thicknesses(model, found, solver, shells)
         checked = check(model, found, solver)
     named = system or units(model)
-    remarks = [*model.remarks, *_passed_over(model, found)]
+    remarks = [*model.remarks, *knots(model), *_passed_over(model, found)]
     if not system:
         text = (
             f"taken for {named}, as E and density of its materials are" if named else "not determined by its materials"
