@@ -94,14 +94,15 @@ CODES = {
         "import does not agree with the solver",
         "The matrices of the element sets do not sum to those of the whole, or the imported model on its supports has not the "
         "frequencies that CalculiX finds for the job as it was written. Nothing was written. As a warning: shells, such as curved "
-        "ones, do not go by powers of their thickness, and the deck has none for them; or S6, S8 and S8R of several sets meet at an "
-        "angle or change their thickness, where CalculiX is softer without one of the sets than K less the K of that set.",
+        "ones, do not go by powers of their thickness, and the deck has none for them; or S6, S8 and S8R of several sets meet at "
+        "an angle or change their thickness, where CalculiX is softer without one of the sets than K less the K of that set.",
         "Import parts of the model to find which keyword acts otherwise than it is read, and report it.",
     ),
     "MD276": Code(
         "supports or sets of imported matrices",
         "A support names degrees of freedom that the matrices have not, two supports hold the same one, or a set gives neither "
-        "stiffness nor mass. As a warning of `mouse import`: which units the job was taken to be in, and sets that give nothing.",
-        "Mend the names; give --units.",
+        "stiffness nor mass. As a warning of `mouse import`: which units the job was taken to be in, materials whose E and density "
+        "are those of none in these units, and sets that give nothing.",
+        "Mend the names, or the constants; give --units.",
     ),
 }

@@ -2,15 +2,18 @@
 
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
+from difflib import get_close_matches
 
 from mouse_cli._errors import ERROR, DeckError, Diagnostic
 from mouse_cli._span import Span
 from mouse_cli.formats import below
 from mouse_cli.formats.data_files import existing, line_span, reject, text_lines
+from mouse_cli.importing.keywords import OPTIONS, PASSED, READ, WITHOUT_EFFECT
 
 _MOST = 40  # findings that one reading lists
+_JOINED = {word.replace(" ", ""): word for word in (*READ, *PASSED, *WITHOUT_EFFECT, *OPTIONS)}  # CalculiX passes over blanks
 _OF_OTHERS = re.compile(r"\s*(/PREP7|/COM|/BATCH|!|N?BLOCK)", re.I)
 _OTHERS = (
     "ANSYS does not run here: let it write K and M (HBMAT), and name these in a deck below model, with the nodes of this file: "
@@ -55,14 +58,20 @@ class Faults:
     found: list[Diagnostic] = field(default_factory=list)
 
     def add(self, code: str, message: str, span: Span, help: str) -> None:
-        """Note a finding."""
-        if len(self.found) < _MOST:
+        """Note a finding, once."""
+        if len(self.found) < _MOST and not any((each.message, each.span) == (message, span) for each in self.found):
             self.found.append(Diagnostic(code, ERROR, message, span, help=help))
 
     def stop(self) -> None:
         """Raise DeckError with what was found, if anything was."""
         if self.found:
             raise DeckError(self.found)
+
+
+def meant(name: str, known: Iterable[str], help: str) -> str:
+    """What to do about a name that is none: the one that is most like it, if one is."""
+    near = get_close_matches(name.upper(), list(known), 1)
+    return f"did you mean {near[0]}? If not, {help}" if near else help
 
 
 def cards(path: str, outside: bool = False) -> list[Card]:
@@ -147,7 +156,17 @@ def _named(place: Span, name: str, path: str, job: str, outside: bool) -> str | 
 
 
 def _keyword(text: str) -> str:
-    return " ".join(text.lstrip()[1:].partition(",")[0].upper().split())
+    return _spaced(text.lstrip()[1:].partition(",")[0])
+
+
+def _spaced(name: str) -> str:
+    """A keyword, an option or a type in capitals, as Abaqus writes it.
+
+    >>> _spaced("Shellsection"), _spaced("ref  node"), _spaced("Set 1")
+    ('SHELL SECTION', 'REF NODE', 'SET 1')
+    """
+    words = name.upper().split()
+    return _JOINED.get("".join(words), " ".join(words))
 
 
 def _options(text: str) -> dict[str, str]:
@@ -155,9 +174,10 @@ def _options(text: str) -> dict[str, str]:
     found = {}
     for part in text.split(",")[1:]:
         name, _, value = part.partition("=")
-        name = " ".join(name.upper().split())
+        name = _spaced(name)
         if name:
             found[name] = value.strip() if name in ("INPUT", "FILE") else value.strip().strip('"').upper()
+            found[name] = _spaced(value) if name == "TYPE" else found[name]
     return found
 
 

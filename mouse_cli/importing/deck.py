@@ -20,31 +20,12 @@ from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.held import Thickness
 from mouse_cli.model.revision import OF_SPRING, THICKNESS, TO_THE_POWER
+from mouse_cli.model.units import SYSTEMS
 
 E_SD, DENSITY_SD, SPRING_SD = "5 %", "1 %", "20 %"  # what is known of a material and of a spring before the test
 _THICKNESS_SD = "5 %"  # of a shell
-_SYSTEMS = {  # ranges of Young's modulus and of density: in Pa and kg/m3, MPa and t/mm3, psi and lbf s2/in4
-    "SI": ((1e8, 1e13), (1.0, 1e5)),
-    "mm-t-N": ((1e2, 1e7), (1e-12, 1e-6)),
-    "in-lbf": ((1e4, 1e9), (1e-5, 1e-2)),
-}
 _MOST_MODES = 6
 _DIRECTIONS = ("S", *DIRECTIONS)
-
-
-def units(model: InputModel) -> str:
-    """The system of units that the materials speak for: SI, mm-t-N, in-lbf, or nothing where they fit none.
-
-    Steel has E = 2.1e11 Pa and 7850 kg/m3, 2.1e5 MPa and 7.85e-9 t/mm3, or 3e7 psi and 7.3e-4 lbf s2/in4.
-    """
-    return units_of((m.E, m.rho) for m in (group.material for group in model.groups) if m is not None)
-
-
-def units_of(materials: Iterable[tuple[float, float]]) -> str:
-    """The same by E and density of materials."""
-    used = list(materials)
-    fits = lambda E, rho: bool(used) and all(E[0] < own < E[1] and rho[0] <= heavy < rho[1] for own, heavy in used)
-    return next((name for name, ranges in _SYSTEMS.items() if fits(*ranges)), "")
 
 
 def write(
@@ -126,7 +107,8 @@ def _parameters(model: InputModel, parts: Parts, keep, system: str) -> list[str]
     lines = ["", "parameters:"]
     known = {"SI": ("Pa", "kg/m3", "N/m"), "mm-t-N": ("MPa", "t/mm3", "N/mm"),
              "in-lbf": ("psi", "lbf s2/in4", "lbf/in")}  # fmt: skip
-    pressure, density, of_length = known.get(system, ("", "", ""))
+    other = tuple(SYSTEMS[system].of(unit) for unit in known["SI"]) if system else ("", "", "")
+    pressure, density, of_length = known.get(system, other)
     for name, material in model.materials.items():
         own = [i for i, group in enumerate(model.groups) if group.material is material]
         K, M = (sum(each[i] for i in own) if own else None for each in (parts.K, parts.M))

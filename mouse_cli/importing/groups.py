@@ -1,7 +1,7 @@
 """Groups of elements: those that share section, material and named sets, so that every named set is a union of groups."""
 
 from mouse_cli._errors import WARNING, Diagnostic
-from mouse_cli.importing.cards import Card, Faults
+from mouse_cli.importing.cards import Card, Faults, meant
 from mouse_cli.importing.keywords import SECTIONS
 from mouse_cli.importing.model import Group, InputModel, materials_of
 
@@ -35,10 +35,8 @@ def grouped(model: InputModel, faults: Faults) -> None:
 def _owned(model: InputModel, card: Card, owner: dict[int, Card], faults: Faults) -> None:
     name, place = card.options.get("ELSET", ""), card.head.span
     if name not in model.elsets:
-        message, help = (
-            f"*{card.keyword} is for element set '{name[:40]}', which does not exist",
-            "define the set above",
-        )
+        message = f"*{card.keyword} is for element set '{name[:40]}', which does not exist"
+        help = meant(name, model.elsets, "define the set above")
         faults.add("MD272", message, place, help)
         return
     if card.keyword in SECTIONS:
@@ -69,7 +67,7 @@ def _material_known(model: InputModel, card: Card, faults: Faults) -> None:
     for name in materials_of(card):
         found = model.materials.get(name)
         if found is None:
-            help = "define it with *MATERIAL, or mend its name"
+            help = meant(name, model.materials, "define it with *MATERIAL, or mend its name")
             faults.add("MD271", f"there is no material '{name[:40]}'", card.head.span, help)
         elif found.elastic is None:
             faults.add("MD271", f"material {name} has no *ELASTIC", found.card.head.span, "give its Young's modulus")

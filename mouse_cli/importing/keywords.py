@@ -15,7 +15,9 @@ WITHOUT_EFFECT = {
     "BASE MOTION", "CFLUX", "CONTACT PRINT", "CYCLIC HARDENING", "RATE DEPENDENT", "SENSITIVITY", "DESIGN RESPONSE",
     "DESIGN VARIABLES", "DESIGNVARIABLES", "FILTER", "HCF",
 }  # fmt: skip
+OPTIONS = {"REF NODE", "ROT NODE", "CONSTRAINT NAME", "NODAL THICKNESS", "POSITION TOLERANCE", "ENGINEERING CONSTANTS"}
 REMEDIES = {
+    "ROTARY INERTIA": "CalculiX has none: give the mass to several nodes of a *RIGID BODY",
     "CONTACT PAIR": "replace the contact by *TIE, or leave it out of a linear model",
     "GAP": "a gap has no stiffness of its own: replace it by a spring, or leave it out",
     "PARAMETER": "write numbers instead of parameters",

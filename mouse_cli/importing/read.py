@@ -6,7 +6,7 @@ import numpy as np
 
 from mouse_cli.importing import bulk
 from mouse_cli.importing.assembly import flat
-from mouse_cli.importing.cards import Card, Faults, Line, cards
+from mouse_cli.importing.cards import Card, Faults, Line, cards, meant
 from mouse_cli.importing.clamps import clamped
 from mouse_cli.importing.groups import grouped
 from mouse_cli.importing.keywords import NODES, PASSED, READ, RELEVANT, REMEDIES, TIES, WITHOUT_EFFECT
@@ -64,7 +64,8 @@ def _understood(card: Card, model: InputModel, faults: Faults) -> bool:
     if word in WITHOUT_EFFECT:
         model.ignored[word] = model.ignored.get(word, 0) + 1
         return word in ("FREQUENCY", "STATIC")
-    help = REMEDIES.get(word, "take it out of a copy of the file if K and M do not depend on it")
+    help = meant(word, READ | PASSED, "take it out of a copy of the file if K and M do not depend on it")
+    help = REMEDIES.get(word, help)
     faults.add("MD268", f"*{word[:40]} is not known, and may change K or M", card.head.span, help)
     return False
 
@@ -193,7 +194,8 @@ def members_of(word: str, line: Line, sets: dict, members: dict, faults: Faults)
         return []
     name = word.strip('"').upper()
     if name not in sets:
-        faults.add("MD272", f"there is no set '{word[:40]}'", line.span, "define the set above, or mend its name")
+        help = meant(name, sets, "define the set above, or mend its name")
+        faults.add("MD272", f"there is no set '{word[:40]}'", line.span, help)
     return list(sets.get(name, []))
 
 

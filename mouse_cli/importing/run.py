@@ -10,13 +10,15 @@ from mouse_cli.importing import calculix
 from mouse_cli.importing.bars.run import ImportedBars, bars_of, imported_bars
 from mouse_cli.importing.cards import Card
 from mouse_cli.importing.checks import Checked, begin, check
-from mouse_cli.importing.deck import units, write
+from mouse_cli.importing.deck import write
 from mouse_cli.importing.knots import knots
+from mouse_cli.importing.material_units import told
 from mouse_cli.importing.model import InputModel
 from mouse_cli.importing.read import read
 from mouse_cli.importing.separate import Parts, parts
 from mouse_cli.importing.thickness import chosen, thicknesses
 from mouse_cli.model.held import Thickness
+from mouse_cli.model.units import SYSTEMS
 
 
 @dataclass(frozen=True)
@@ -75,16 +77,9 @@ def imported(
         found = parts(model, solver, lambda whole: begin(model, whole, solver))
         thick = thicknesses(model, found, solver, shells)
         checked = check(model, found, solver)
-    named = system or units(model)
-    remarks = [*model.remarks, *knots(model), *_passed_over(model, found)]
-    if not system:
-        text = (
-            f"taken for {named}, as E and density of its materials are" if named else "not determined by its materials"
-        )
-        remarks.append(
-            Diagnostic("MD276", WARNING, f"the units of the job are {text}", Span(path, 1), help="give --units")
-        )
-    unit = {"SI": "m", "mm-t-N": "mm", "in-lbf": "in"}.get(named, "")
+    named, of_units = told(model, system)
+    remarks = [*model.remarks, *knots(model), *_passed_over(model, found), *of_units]
+    unit = SYSTEMS[named].length if named else ""
     thick = {i: replace(each, unit=unit) for i, each in thick.items()}
     files = write(target, model, found, checked, named, thick, shells)
     return Imported(model, found, checked, files, named, tuple(remarks), thick)

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable
 
 from mouse_cli._errors import WARNING, Diagnostic
-from mouse_cli.importing.cards import Card, Faults, Line
+from mouse_cli.importing.cards import Card, Faults, Line, meant
 from mouse_cli.importing.clamps import HELP
 from mouse_cli.importing.keywords import WORDS, expanded
 from mouse_cli.importing.model import InputModel, Support
@@ -76,7 +76,8 @@ def _held(model: InputModel, line: Line, faults: Faults) -> tuple[str, list[int]
         return f"NODE_{int(word)}", [int(word)]
     name = word.upper()
     if name not in model.nsets:
-        faults.add("MD272", f"there is no node set '{word[:40]}'", line.span, "define the set, or mend its name")
+        help = meant(name, model.nsets, "define the set, or mend its name")
+        faults.add("MD272", f"there is no node set '{word[:40]}'", line.span, help)
     elif not model.nsets[name]:
         faults.add(
             "MD272", f"node set {name} is held, and has no nodes", line.span, "list its nodes, or take the line out"

@@ -9,6 +9,7 @@ from test_import import BAR, written
 from mouse_cli import DeckError
 from mouse_cli.importing.calculix import Solver
 from mouse_cli.importing.jobs import frequencies
+from mouse_cli.importing.material_units import told
 from mouse_cli.importing.read import read
 from mouse_cli.importing.run import imported
 
@@ -163,3 +164,69 @@ def test_bulk_data_without_elements(tmp_path, text):
     with pytest.raises(DeckError, match="no elements") as refused:
         read(written(tmp_path, text))
     assert refused.value.diagnostics[0].code == "MD265"
+
+
+@solver
+def test_blanks_in_keywords_and_options_mean_nothing(tmp_path):
+    """CalculiX reads *SHELLSECTION, REFNODE= and TYPE=ENGINEERINGCONSTANTS: Poisson's ratios are then no moduli.
+
+    Frequencies: ccx of the job as it is written, which an import compares.
+    """
+    constants = "*ELASTIC, TYPE=ENGINEERING CONSTANTS\n2.1e11, 2.1e11, 2.1e11, .3, .3, .3, 8e10, 8e10,\n8e10\n"
+    rigid = "*NODE\n20, .5, .5, 3.\n*NSET, NSET=TOP\n9, 10, 11, 12\n*RIGID BODY, NSET=TOP, REF NODE=20\n"
+    text = BAR.replace("*ELASTIC\n2.1e11, 0.3\n", constants) + rigid
+    joined = text
+    for words in ("SOLID SECTION", "RIGID BODY", "REF NODE", "ENGINEERING CONSTANTS"):
+        joined = joined.replace(words, words.title().replace(" ", ""))
+    one, other = (imported(written(tmp_path, each), tmp_path / "deck.yaml", "SI", False, str) for each in (text, joined))
+    assert other.checked.frequency < 1e-6 and len(one.parts.K) == len(other.parts.K) == 2
+    assert all(abs(a - b).max() < 1e-9 * abs(a).max() for a, b in zip(one.parts.K, other.parts.K, strict=True))
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "near"),
+    [
+        ("*BOUNDARY", "*BOUNDRY", "BOUNDARY"),
+        ("ELSET=HIGH, MATERIAL", "ELSET=HIHG, MATERIAL", "HIGH"),
+        ("MATERIAL=STEEL", "MATERIAL=STEAL", "STEEL"),
+        ("FOOT, 1, 3", "FOTO, 1, 3", "FOOT"),
+    ],
+)
+def test_a_name_that_is_none_is_told_with_the_one_that_is_most_like_it(tmp_path, before, after, near):
+    with pytest.raises(DeckError) as refused:
+        read(written(tmp_path, BAR.replace(before, after)))
+    assert f"did you mean {near}?" in refused.value.diagnostics[0].help
+
+
+def test_what_is_wrong_with_a_material_is_told_once(tmp_path):
+    """Two sections name it."""
+    with pytest.raises(DeckError) as refused:
+        read(written(tmp_path, BAR.replace("*DENSITY\n7850.\n", "")))
+    assert [each.message for each in refused.value.diagnostics] == ["material STEEL has no *DENSITY"]
+
+
+@pytest.mark.parametrize(
+    ("E", "rho", "system"),
+    [
+        ("2.1e11", "7850.", "SI"), ("2.1e5", "7.85e-9", "mm-t-N"), ("2.1e8", "7.85", "m-t-kN"), ("3.0e7", "7.3e-4", "in-lbf"),
+        ("2.1e8", "7.85e-6", "mm-kg-mN"), ("4.4e9", "15.2", "ft-lbf"), ("9e7", "80.", "SI"), ("90.", "8e-11", "mm-t-N"),
+        ("2.1e11", "7.85e-9", ""), ("210.", "7850.", ""),
+    ],
+)  # fmt: skip
+def test_units_of_a_job_by_its_materials(tmp_path, E, rho, system):
+    """Steel and foam of handbooks; steel with a modulus in one system and a density in another is told, by its line."""
+    model = read(written(tmp_path, BAR.replace("2.1e11, 0.3", f"{E}, 0.3").replace("7850.", rho)))
+    named, remarks = told(model, None)
+    assert named == system and (len(remarks) == 1) == bool(system)
+    if not system:
+        assert remarks[1].span.line == 22 and "of STEEL" in remarks[1].message and "2.1e5" in remarks[1].help
+
+
+def test_one_material_in_other_units_than_the_rest_is_told(tmp_path):
+    """GPa among Pa: the job is in SI by the other material."""
+    other = "*MATERIAL, NAME=ALU\n*ELASTIC\n70., 0.33\n*DENSITY\n2700.\n"
+    other += "*MATERIAL, NAME=TITAN\n*ELASTIC\n1.1e11, .3\n*DENSITY\n4500.\n"
+    more = "*ELEMENT, TYPE=C3D8, ELSET=TOP\n3, 5, 6, 7, 8, 9, 10, 11, 12\n*SOLID SECTION, ELSET=TOP, MATERIAL=TITAN\n"
+    model = read(written(tmp_path, BAR.replace("ELSET=HIGH, MATERIAL=STEEL", "ELSET=HIGH, MATERIAL=ALU") + other + more))
+    named, remarks = told(model, None)
+    assert named == "SI" and ["of ALU" in each.message for each in remarks] == [False, True]

@@ -14,7 +14,8 @@ from mouse_cli.formats.yaml_deck.text import word
 from mouse_cli.formats.yaml_deck.writer_structure import structure
 from mouse_cli.importing.bars.parts import Bars
 from mouse_cli.importing.bars.read import bars_of
-from mouse_cli.importing.deck import DENSITY_SD, E_SD, SPRING_SD, stub, units_of
+from mouse_cli.importing.deck import DENSITY_SD, E_SD, SPRING_SD, stub
+from mouse_cli.importing.material_units import units_of
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.mesh import Mesh
 
