@@ -288,6 +288,22 @@ def test_what_is_missing_is_named_as_the_model_names_it(tmp_path, what):
             assert abs(size.value - truth) < 3 * size.sd < 0.5
 
 
+def test_a_point_mass_of_the_model_that_is_heavier_has_one_name(tmp_path):
+    """4 kg at node 12 weigh 8: a lumped mass there and more of the set are one, which was once told as one of two."""
+    _, K, M = truss()
+    dot = np.zeros((3 * NODES, 3 * NODES))
+    dot[range(33, 36), range(33, 36)] = 4.0
+    path = deck(tmp_path, springs(sum(K.values()), "", 0), sum(M.values()) + 2 * dot)
+    save_npz(tmp_path / "M.npz", csr_matrix(sum(M.values()) + dot))
+    save_npz(tmp_path / "M_DOT.npz", csr_matrix(dot))
+    path.write_text(path.read_text().replace("  sets:\n", "  sets:\n    DOT: {mass: {file: M_DOT.npz}, nodes: [12]}\n"))
+    found = diagnose(read_deck(path))
+    assert found.kind == "named" and found.best.physics == "mass"
+    (cause,) = found.best.causes
+    assert cause.site.text == "element set DOT" and abs(cause.sizes[0].value - 1) < 3 * cause.sizes[0].sd < 0.2
+    assert not any("node 12" in each.causes[0].site.text for each in found.explanations if each.physics == "mass")
+
+
 @pytest.mark.parametrize(
     "more", ["    TWICE: {nodes: [3], directions: [TX]}\n", "    ABSENT: {nodes: [77], directions: [TX]}\n"]
 )

@@ -110,7 +110,7 @@ def _with_mass(problem: Problem, m: float, pieces: list | None, where: str) -> P
 
 CANDIDATE = Candidate(
     "added-mass",
-    "added mass along bars",
+    "a distributed added mass",
     "added-mass",
     "added mass per length (entrained liquid, ice, cladding), on all bars, from an end on or "
     "between two points; on all bars alike it equals a larger density",
