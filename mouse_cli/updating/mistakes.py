@@ -149,7 +149,7 @@ def _readings(problem: Problem) -> Iterator[Reading]:
         yield Reading(f"with spectral lines {said}", help, problem.test.frequency_hz * factor)
     plain = problem.mesh is None or not problem.terms or len(problem.elements) or abs(problem.structure.K).max() > 0
     if plain:
-        yield from _of_matrices()
+        yield from _of_matrices(problem)
     elif problem.structure.n <= LARGEST_DENSE:
         yield from _of_structure(problem)
 
@@ -185,9 +185,17 @@ _MATRICES = (
 )
 
 
-def _of_matrices() -> Iterator[Reading]:
+_WEIGHTS = {  # factors of masses that are weights, with the units of length beside which they may be
+    386.0886: ("in",), 32.17405: ("ft",), GRAVITY: ("m", "mm"), 1e-3 * GRAVITY: ("m", "mm"),
+}  # fmt: skip
+
+
+def _of_matrices(problem: Problem) -> Iterator[Reading]:
+    """K and M in another unit, but as weights in units of force that the deck says it is not in."""
+    declared = problem.units.length if problem.units.declared else None
     for factor, said, remedy in _MATRICES:
-        yield Reading(said, remedy, factor=factor)
+        if declared is None or declared in _WEIGHTS.get(factor, (declared,)):
+            yield Reading(said, remedy, factor=factor)
 
 
 _VALUES = (  # properties that are mended together, their name, and units with factors

@@ -246,3 +246,11 @@ test: {modes: {frequency: [15.0988], frequency_sd: 0.1 %}}
     result = run(problem_of(text))
     assert result.status.key == "impossible" and result.exit_code == 1
     assert "E of the rod became -9.99" in result.status.sentence and "diagnose" in result.status.advice
+
+
+@pytest.mark.parametrize("short", [1.0, 0.92])
+def test_matrices_in_declared_units_are_no_weights_in_others(short):
+    """Angular frequencies of a structure 8 % slower than its model lie nearer to 32.174^1/2 than to 2 pi: no lbf beside metres."""
+    deck = MATRICES.replace("model:", "units: SI\nmodel:", 1).replace(_listed(CHAIN_HZ), _listed(2 * np.pi * short * CHAIN_HZ))
+    (found,) = (each for each in findings(deck) if each.code == "MD450")
+    assert "rad/s" in found.message and "2 pi" in found.help and "lbf" not in f"{found.message}{found.note}"
