@@ -11,6 +11,7 @@ from mouse_cli.formats import nastran_fields
 from mouse_cli.formats.data_files import existing, line_span, text_lines
 from mouse_cli.importing.bulk_deck import BulkDeck, text
 from mouse_cli.importing.bulk_defaults import filled
+from mouse_cli.importing.bulk_masses import masses, rigid
 from mouse_cli.importing.bulk_passed import PASSED
 from mouse_cli.importing.bulk_springs import springs
 from mouse_cli.importing.bulk_supports import supports
@@ -92,7 +93,7 @@ def cards(deck: BulkDeck) -> list[Card]:
                 card, f"this {card.name} stands among shells or solids, which CalculiX makes K and M of", _BARS_HELP
             )
     unread(deck, {"GRID", "CONM2", "CELAS1", "CELAS2", "CBUSH", "RBE2", "RBE3", *_ELEMENTS, *BARS})
-    for step in (_nodes, _elements, _materials, _sections, _masses, springs, _rigid, weighted, supports, _step):
+    for step in (_nodes, _elements, _materials, _sections, masses, springs, rigid, weighted, supports, _step):
         step(deck)
     return deck.found
 
@@ -202,32 +203,6 @@ def _sections(deck: BulkDeck) -> None:
             deck.refuse(card, "this PSOLID is a fluid")
         keyword = "SHELL SECTION" if card.name == "PSHELL" else "SOLID SECTION"
         deck.card(card, keyword, lines, ELSET=name, MATERIAL=material)
-
-
-def _masses(deck: BulkDeck) -> None:
-    for card in deck.of("CONM2"):
-        if deck.whole(card, 2) or any(_given(card, k) for k in (4, 5, 6)):
-            deck.refuse(card, "this CONM2 is off its node", "give a GRID at its centre, joined by RBE2")
-        if any(_given(card, k) for k in range(8, 14)):
-            deck.refuse(
-                card,
-                "this CONM2 has a rotary inertia, which a MASS of CalculiX has not",
-                "spread it over several CONM2",
-            )
-        own, data = deck.whole(card, 0), [deck.line(card, deck.real(card, 3) * deck.mass)]
-        deck.single(card, f"CONM2_{own}", own, "MASS", [deck.whole(card, 1)], data)
-
-
-def _rigid(deck: BulkDeck) -> None:
-    for card in deck.of("RBE2"):
-        nodes, components = deck.rest(card, 3), text(card, 2)
-        if "." in card.fields[-1] or set(components) != set("123456"):
-            deck.refuse(card, f"this RBE2 joins the directions {components[:6]} alone" if len(components) < 6
-                        else "this RBE2 has a thermal expansion")  # fmt: skip
-            continue
-        name = f"RBE2_{deck.whole(card, 0)}"
-        deck.card(card, "NSET", [deck.line(card, str(node)) for node in nodes], NSET=name)
-        deck.card(card, "RIGID BODY", NSET=name, REF_NODE=str(deck.whole(card, 1)))
 
 
 def _step(deck: BulkDeck) -> None:

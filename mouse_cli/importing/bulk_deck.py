@@ -23,6 +23,7 @@ class BulkDeck:
     """Bulk data being translated; by: its cards by their names; found: what they became.
 
     at: where grid points are, in the basic system; turned: those that move in directions of their own.
+    carried: nodes that masses of a rigid body (number of the RBE2) are spread over.
     """
 
     bulk: nastran_fields.Bulk
@@ -33,6 +34,7 @@ class BulkDeck:
     mass: float = 1.0  # PARAM,WTMASS
     at: dict[int, np.ndarray] = field(default_factory=dict)
     turned: set[int] = field(default_factory=set)
+    carried: dict[int, list[int]] = field(default_factory=dict)
 
     @cached_property
     def grids(self) -> list[int]:

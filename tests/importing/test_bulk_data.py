@@ -157,3 +157,31 @@ def test_supports_of_grids_and_of_added_sets(tmp_path):
     text = text.replace("GRID,7,,1.,1.,1.", "GRID,7,,1.,1.,1.,,12")
     model = read(written(tmp_path, text))
     assert [(each.name, len(each.dofs)) for each in model.supports] == [("SPC1_1_1", 12), ("SPC1_2_1", 12), ("GRID", 2)]
+
+
+@solver
+def test_a_mass_with_inertia_off_its_node_is_spread_over_its_rigid_body(tmp_path):
+    """A cube of 2e4 kg, 2 by 1 by 0.5 m, turned, its centre 0.3 above the node; by hand: 8 masses at corners with such moments."""
+    size, heavy, centre = np.array([2.0, 1.0, 0.5]), 2e4, np.array([0.5, 0.5, 4.3])
+    axes = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))[0]
+    corners = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * size / np.sqrt(12) @ axes.T
+    tensor = heavy * (np.trace(corners.T @ corners / 8) * np.eye(3) - corners.T @ corners / 8)
+    moments = [tensor[0, 0], -tensor[1, 0], tensor[1, 1], -tensor[2, 0], -tensor[2, 1], tensor[2, 2]]
+    more = f"CONM2,91,20,,{heavy},0.,0.,.3\n,{','.join(f'{each:.9g}' for each in moments)}\n"
+    bulk = BRICKS.replace("ENDDATA", "GRID,20,,.5,.5,4.\nRBE2,90,20,123456,9,THRU,12\n" + more)
+    by_hand = BAR.replace("C3D8,", "C3D8I,").replace("12, 0., 1., 2.\n", "12, 0., 1., 2.\n20, .5, .5, 4.\n")
+    points = enumerate((centre + corners).tolist(), 31)
+    by_hand += "*NODE, NSET=TOP\n" + "".join(f"{n}, {x}, {y}, {z}\n" for n, (x, y, z) in points)
+    by_hand += "*NSET, NSET=TOP\n9, 10, 11, 12\n*RIGID BODY, NSET=TOP, REF NODE=20\n*ELEMENT, TYPE=MASS, ELSET=D\n"
+    by_hand += "".join(f"{91 + i}, {31 + i}\n" for i in range(8)) + f"*MASS, ELSET=D\n{heavy / 8}\n"
+    model = read(written(tmp_path, bulk))
+    expected = hertz(by_hand + "*STEP\n*FREQUENCY\n6\n*END STEP\n")
+    assert np.allclose(hertz(frequencies(model, 6)), expected, rtol=1e-6)
+    assert [group.name for group in model.groups if group.owner.keyword == "MASS"] == ["CONM2_91"]
+
+
+def test_an_inertia_that_no_body_has_is_refused(tmp_path):
+    more = "GRID,20,,.5,.5,4.\nRBE2,90,20,123456,9,THRU,12\nCONM2,91,20,,1.\n,3.\n"
+    with pytest.raises(DeckError, match="no body has") as refused:
+        read(written(tmp_path, BRICKS.replace("ENDDATA", more)))
+    assert refused.value.diagnostics[0].code == "MD268"
