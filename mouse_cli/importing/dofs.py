@@ -3,6 +3,8 @@
 Shells and beams become solids there, and the rows of all solid nodes that a node of the input became bear its number, in the
 order bottom (middle) top. Its own motion is their mean: of the outer two of three (S8 and S6, where supports hold the middle one
 too), of the first four of eight (B32), of all else. That mean, and what the others move beside it, take the place of the rows.
+Where a spring, a mass or an equation acts on such a node, the mean is a row itself, before all rows of solids, and one of those is
+not there.
 """
 
 from dataclasses import dataclass
@@ -36,8 +38,9 @@ class Rows:
         return matrix if self.T is None else (self.T.T @ matrix @ self.T).tocsr()
 
 
-def rows(dofs: np.ndarray, own: dict[int, Clamp | None]) -> Rows:
-    """dofs (n, 2): node and direction as the solver names its rows; own: nodes of the input.
+def rows(dofs: np.ndarray, own: dict[int, Clamp | None], pointed: frozenset[int] = frozenset()) -> Rows:
+    """dofs (n, 2): node and direction as the solver names its rows; own: nodes of the input; pointed: those at which something
+    acts but solids.
 
     Where rotations of shells are held, what their faces move along them, beside the mean, is said by rotations.
     """
@@ -45,7 +48,7 @@ def rows(dofs: np.ndarray, own: dict[int, Clamp | None]) -> Rows:
     for i, (node, direction) in enumerate(dofs.tolist()):
         places.setdefault((node, direction), []).append(i)
     names, held, blocks, beside, middle = dofs.copy(), {}, [], np.zeros(len(dofs), int), np.zeros(len(dofs), bool)
-    top = max(int(dofs[:, 0].max()), max(own, default=0))
+    top, first = max(int(dofs[:, 0].max()), max(own, default=0)), _points(dofs)
     for (node, direction), at in places.items():
         if node not in own:
             names[at] = [(top + 1 + i, _SCALAR) for i in at]
@@ -53,10 +56,11 @@ def rows(dofs: np.ndarray, own: dict[int, Clamp | None]) -> Rows:
             held[node, direction] = (at[0],)
             continue
         outer = [at[k] for k in _OUTER.get(len(at), range(len(at)))]
+        outer = at[:1] if node in pointed and at[0] < first else outer
         rest = [i for i in at if i not in outer]
-        held[node, direction] = (outer[0], *rest) if len(at) == 3 else (outer[0],)
+        held[node, direction] = (outer[0], *rest) if len(at) == 3 and len(outer) > 1 else (outer[0],)
         blocks.append((outer, rest))
-        middle[rest] = True
+        middle[rest] = len(outer) > 1
         for i in outer[1:] + rest:
             names[i], beside[i] = (top + 1 + i, _SCALAR), node if node in own else 0
     T = _basis(len(dofs), blocks) if blocks else None
@@ -64,6 +68,12 @@ def rows(dofs: np.ndarray, own: dict[int, Clamp | None]) -> Rows:
         if clamp is not None and T is not None:
             T = T @ _rotations(node, clamp, places, names, held)
     return Rows(T, names, {k: v for k, v in held.items() if k[0] in own}, beside, middle)
+
+
+def _points(dofs: np.ndarray) -> int:
+    """How many rows stand before those of solids that were made of shells and beams: in the order of nodes and directions."""
+    after = np.diff(dofs[:, 0] * 8 + dofs[:, 1]) <= 0
+    return int(np.argmax(after)) + 1 if after.any() else len(dofs)
 
 
 def _rotations(node: int, clamp: Clamp, places: dict, names: np.ndarray, held: dict):

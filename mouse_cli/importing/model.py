@@ -129,6 +129,14 @@ class InputModel:
         return dict.fromkeys(self.nodes) | self.clamps
 
     @property
+    def pointed(self) -> frozenset[int]:
+        """Nodes at which springs, masses or equations act: in the solver they have rows of their own beside those of solids."""
+        points = [each for kind, each in self.elements.values() if kind.startswith(("SPRING", "MASS"))]
+        lines = (line for card in self.kept if card.keyword == "EQUATION" for line in card.lines)
+        words = (word for line in lines for word in line.words[::3])
+        return frozenset({n for each in points for n in each} | {int(word) for word in words if word.isdigit()})
+
+    @property
     def expanded(self) -> bool:
         """Whether some elements are made solids of by CalculiX."""
         from mouse_cli.importing.keywords import expanded

@@ -36,18 +36,18 @@ def parts(
     """
     from scipy.sparse import csr_array
 
-    own, classes = model.own, colours(model)
+    own, classes = (model.own, model.pointed), colours(model)
     if thick != 1.0:
         classes = [each for each in ([i for i in one if model.groups[i].shell] for one in classes) if each]
     jobs = [(export(model, chosen, thick), title) for chosen, title in _titled(model, classes, thick)]
     ahead = cores() + 1
     solver.begin(jobs[:ahead])
-    whole = solver.matrices(*jobs[0], own)
+    whole = solver.matrices(*jobs[0], *own)
     meanwhile(whole)
     n = whole.K.shape[0]
     K, M = ([csr_array((n, n)) for _ in model.groups] for _ in range(2))
     for i, chosen in enumerate(classes, 1):
-        scaled = solver.matrices(*jobs[i], own)
+        scaled = solver.matrices(*jobs[i], *own)
         solver.begin(jobs[i + ahead - 1 : i + ahead])
         moved = [difference(getattr(scaled, x), getattr(whole, x)) / (SCALE - 1) for x in "KM"]
         owner = _owners(model, chosen, moved, whole.rows.names[:, 0])

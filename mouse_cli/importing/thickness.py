@@ -49,7 +49,7 @@ def thicknesses(model: InputModel, found: Parts, solver: Solver, asked: list[Car
         return {}
     check = export(model, thick=_OTHER), f"the whole at {_OTHER:g} times the thickness"
     solver.begin([check])
-    there, other = parts(model, solver, thick=_SIZE), solver.matrices(*check, model.own)
+    there, other = parts(model, solver, thick=_SIZE), solver.matrices(*check, model.own, model.pointed)
     error = np.inf
     if there.whole.K.shape == found.whole.K.shape == other.K.shape:
         order = _order(model, found.whole, there.whole)
