@@ -12,6 +12,7 @@ from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.model.arrays import dense
+from mouse_cli.model.diagnosis import Choices
 from mouse_cli.terms.assembly import assembly
 
 NODES, FEET = 12, {"FOOT_1": (1, 2, 3), "FOOT_2": (4, 5)}
@@ -288,6 +289,18 @@ def test_what_is_missing_is_named_as_the_model_names_it(tmp_path, what):
             assert abs(size.value - truth) < 3 * size.sd < 0.5
 
 
+def test_a_support_in_one_direction_that_is_gone_lets_each_of_its_nodes_go(tmp_path):
+    """A hanger that holds two nodes in TY: without it they move each for itself, which is no motion of one body."""
+    _, K, M = truss()
+    free = sum(K.values())
+    free[range(9), range(9)] += 1e20
+    path = deck(tmp_path, free, sum(M.values()))
+    held = "FOOT_2: {{nodes: [4, 5], directions: [{}]}}".format
+    path.write_text(path.read_text().replace(held("TX, TY, TZ"), held("TY")))
+    found = diagnose(read_deck(path), choices=Choices(candidates=("support-translation", "member", "oscillator"), causes=1))
+    assert found.kind == "named" and [each.site.text for each in found.best.causes] == ["the support FOOT_2, TY at each node"]
+
+
 def test_a_point_mass_of_the_model_that_is_heavier_has_one_name(tmp_path):
     """4 kg at node 12 weigh 8: a lumped mass there and more of the set are one, which was once told as one of two."""
     _, K, M = truss()
@@ -297,7 +310,7 @@ def test_a_point_mass_of_the_model_that_is_heavier_has_one_name(tmp_path):
     save_npz(tmp_path / "M.npz", csr_matrix(sum(M.values()) + dot))
     save_npz(tmp_path / "M_DOT.npz", csr_matrix(dot))
     path.write_text(path.read_text().replace("  sets:\n", "  sets:\n    DOT: {mass: {file: M_DOT.npz}, nodes: [12]}\n"))
-    found = diagnose(read_deck(path))
+    found = diagnose(read_deck(path), choices=Choices(candidates=("mass", "added-mass", "lighter"), causes=1))
     assert found.kind == "named" and found.best.physics == "mass"
     (cause,) = found.best.causes
     assert cause.site.text == "element set DOT" and abs(cause.sizes[0].value - 1) < 3 * cause.sizes[0].sd < 0.2

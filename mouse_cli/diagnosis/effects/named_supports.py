@@ -28,12 +28,16 @@ _POINT = 1e-9  # of the size of the structure: extent of a support that cannot t
 
 @dataclass(frozen=True)
 class Motions:
-    """Of one support: pattern (k, a) of its degrees of freedom, labels (a,), and bed (a, a): stiffness of springs of 1 in all."""
+    """Of one support: pattern (k, a) of its degrees of freedom, labels (a,), and bed (a, a): stiffness of springs of 1 in all.
+
+    words: what moves, where it is more than one motion.
+    """
 
     support: Support
     pattern: np.ndarray
     labels: tuple[str, ...]
     bed: np.ndarray
+    words: str = "all directions"
 
 
 def named(model: Reduced, candidate, turning: bool) -> list[Recipe]:
@@ -87,21 +91,22 @@ def _whole(support: Support, pattern: np.ndarray) -> list[Motions]:
     """All directions, on springs of equal stiffness at every node; one stiffness, that of all of them together, in translation.
 
     Every degree of freedom for itself where they are few, else as a rigid body. Where such springs hold every rotation of the
-    support, rotations of its nodes are free.
+    support, rotations of its nodes are free. A support that holds several nodes in one direction is left by each in that one.
     """
     kept = [d for d in range(6) if pattern[:, d].any()]
     translations = [d for d in kept if d < 3]
-    if len(translations) < 2:
+    count = np.count_nonzero(pattern[:, translations[0]]) if translations else 0
+    if len(translations) < 2 and count < 2:
         return []
     shifted = pattern[:, :3].any(axis=1)
-    count = np.count_nonzero(pattern[:, translations[0]])
+    words = "all directions" if len(translations) > 1 else f"{DIRECTIONS[translations[0]]} at each node"
     if len(support.dofs) <= _FLEXIBLE:
         spread = np.linalg.matrix_rank(pattern[shifted, 3:]) == 3  # its springs hold its rotations too
         own = np.flatnonzero(pattern.any(axis=1) if spread else shifted)
         each, bed = np.eye(len(support.dofs))[:, own], np.diag(shifted[own] / count)
-        return [Motions(support, each, tuple(f"motion {i + 1}" for i in range(len(own))), bed)]
+        return [Motions(support, each, tuple(f"motion {i + 1}" for i in range(len(own))), bed, words)]
     bed = pattern[shifted][:, kept].T @ pattern[shifted][:, kept]
-    return [Motions(support, pattern[:, kept], tuple(DIRECTIONS[d] for d in kept), bed / count)]
+    return [Motions(support, pattern[:, kept], tuple(DIRECTIONS[d] for d in kept), bed / count, words)]
 
 
 def _together(motions: list[Motions]) -> tuple[np.ndarray, np.ndarray]:
@@ -125,7 +130,7 @@ def _recipe(
     against = resistance(model, K[own_rows], M[own_rows], own.bed)
     unit = "N m/rad" if turning else "N/m"
     k = Unknown("stiffness of the support", unit, SOFTEST * float(against.min()), STIFFEST * float(against.max()))
-    words = own.labels[0] if one else "all directions"
+    words = own.labels[0] if one else own.words
     site = Site("node", (), None, f"the support {own.support.name}, {words}")
 
     def change(values: np.ndarray) -> Change:
