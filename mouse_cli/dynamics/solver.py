@@ -186,7 +186,10 @@ def eigensolution(K: Matrix, M: Matrix, count: int | None = None, shift: float |
 
 
 def _elastic(operator: Operator, sigma: float) -> float:
-    """The lowest eigenvalue that is not zero, roughly: from a small space. Below zero when K is indefinite, inf: none found."""
+    """The lowest eigenvalue that is not zero, or what rounding makes of zero, roughly: from a small space.
+
+    Below zero when K is indefinite, inf: none found.
+    """
     space = Krylov(operator, (_TRIAL + 1) * BLOCK)
     space.start(start_block(space.n, None, 0))
     for _ in range(_TRIAL):
@@ -194,7 +197,7 @@ def _elastic(operator: Operator, sigma: float) -> float:
             break
     theta = space.ritz()[0]
     eigenvalues = sigma + 1 / theta[theta > INFINITE * theta[0]]
-    return float(min(eigenvalues[np.abs(eigenvalues) > -1e-7 * sigma], default=np.inf))
+    return float(min(eigenvalues[np.abs(eigenvalues) > max(1e-7, operator.noise) * -sigma], default=np.inf))
 
 
 def _noise(A: Matrix, M: Matrix, sigma: float) -> float:

@@ -185,3 +185,18 @@ def test_an_inertia_that_no_body_has_is_refused(tmp_path):
     with pytest.raises(DeckError, match="no body has") as refused:
         read(written(tmp_path, BRICKS.replace("ENDDATA", more)))
     assert refused.value.diagnostics[0].code == "MD268"
+
+
+@solver
+def test_a_plate_that_nothing_holds_with_a_box_on_a_rigid_element(tmp_path):
+    """Rounding of K was once taken for the lowest elastic mode, with a shift so near zero that nothing converged: MD275."""
+    grids = [(i, j, 0) for j in range(9) for i in range(13)] + [(i, 4, 1) for i in range(13)]
+    number = {each: n for n, each in enumerate(grids, 1)}
+    bulk = HEAD.replace("SPC = 2\n", "") + "".join(f"GRID,{number[i, j, k]},,{i / 20},{j / 20},{0.03 * k}\n" for i, j, k in grids)
+    quads = [[(i, j, 0), (i + 1, j, 0), (i + 1, j + 1, 0), (i, j + 1, 0)] for i in range(12) for j in range(8)]
+    quads += [[(i, 4, 0), (i + 1, 4, 0), (i + 1, 4, 1), (i, 4, 1)] for i in range(12)]
+    bulk += "".join(f"CQUAD4,{e},1,{','.join(str(number[at]) for at in each)}\n" for e, each in enumerate(quads, 1))
+    bulk += "PSHELL,1,1,.003,1,,1\nMAT1,1,7.+10,,.33,2700.\nGRID,900,,.3,.1,.05\n"
+    hub = ",".join(str(number[at]) for at in ((5, 2, 0), (6, 1, 0), (6, 2, 0), (6, 3, 0), (7, 2, 0)))
+    found = imported(written(tmp_path, f"{bulk}RBE2,901,900,123456,{hub}\n"), tmp_path / "deck.yaml", None, False, str)
+    assert len(found.checked.hz) == 8 and found.checked.frequency < 1e-6
