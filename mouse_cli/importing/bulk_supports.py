@@ -51,6 +51,11 @@ def _chosen(deck: BulkDeck) -> list[nastran_fields.Card]:
         deck.refuse(
             every[0], f"no case control chooses among the sets {listed} of SPC", "write SPC = and its number", "MD273"
         )
+    known = sets | {deck.whole(card, 0) for card in deck.of("SPCADD")}
+    if number is not None and number not in known and every:
+        listed = ", ".join(map(str, sorted(known)))
+        message = f"case control asks for SPC = {number}, and the bulk data have the sets {listed}"
+        deck.refuse(every[0], message, "mend the number in the case control, or take the line out to let nothing be held", "MD273")
     wanted: set[int] = {number} if number is not None else sets
     for card in deck.of("SPCADD"):
         if deck.whole(card, 0) in wanted:

@@ -127,6 +127,7 @@ REFUSED = {
     "a mass off its node": (MORE + "CONM2,9,9,,1.,.1\n", "MD268", "off its node"),
     "rotary inertia": (MORE + "CONM2,9,9,,1.\n,3.\n", "MD268", "rotary inertia"),
     "several sets of supports": (MORE.replace("SPC = 2\n", ""), "MD273", "sets 1, 2"),
+    "supports of another set": (MORE.replace("SPC = 2", "SPC = 7"), "MD273", "SPC = 7, and the bulk data have the sets 1, 2"),
     "a node too few": (MORE + "CTRIA3,9,9,9,10\n", "MD265", "2 nodes"),
     "a node that is not there": (MORE + "CTETRA,9,2,9,10,11,77\n", "MD272", "node 77"),
     "no density": (MORE.replace(",7850.", ""), "MD271", "DENSITY"),
