@@ -277,4 +277,4 @@ def _cause(recipe, group: str, c: np.ndarray, sd: np.ndarray, units: Units) -> C
         for u, v, s in zip(recipe.unknowns, values, sd, strict=True)
     )
     candidate = recipe.candidate
-    return Cause(candidate.key, group, candidate.title, recipe.site(values), sizes, recipe.law)
+    return Cause(candidate.key, group, recipe.title(values) or candidate.title, recipe.site(values), sizes, recipe.law)

@@ -14,9 +14,8 @@ from mouse_cli.importing.keywords import NODES
 from mouse_cli.importing.model import Group, InputModel
 from mouse_cli.model.geometry import DIRECTIONS, rigid_motions
 from mouse_cli.model.problem import Problem
-from mouse_cli.model.revision import RevisedSpring, RevisedSupport, Revision
+from mouse_cli.model.revision import GONE, RevisedSpring, RevisedSupport, Revision
 
-_GONE = 0.01  # share left below which a part is taken out: what is left of it would move in modes of its own alone
 _POINT = 1e-9  # of the size of the structure: an arm that is none
 _Factors = tuple[float, float]  # of the moduli and of the density, to those of the job
 
@@ -82,8 +81,8 @@ def _changes(model: InputModel, revision: Revision, released: set[int]) -> _Chan
             e *= float(np.prod([part.constant / group.constant for part in own if part.constant is not None]))
             groups[id(group)] = left * e + sum(p.stiffness for p in own), left * r + sum(p.mass for p in own)
             notes.setdefault(group.name, []).extend(part.note for part in own)
-            gone |= set(group.elements) if left < _GONE else set()
-        kept |= set(group.elements) if not own or left >= _GONE else set()  # other layers may be
+            gone |= set(group.elements) if left < GONE else set()
+        kept |= set(group.elements) if not own or left >= GONE else set()  # other layers may be
     thickness = {}
     for one in revision.thicknesses:
         for group in model.groups:

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 End = tuple[int, int]  # node, and direction from 1 (TX) to 6 (RZ)
+GONE = 0.01  # share left of a part below which it is taken out of a job: what is left would move in modes of its own alone
 PART_LEFT = "share of element set {} that is left, and of its mass"  # names of parameters that a diagnosis adds
 MASS_GAINED, MASS_LOST = "share of element set {} in mass, gained", "share of element set {} in mass, lost"
 E_TIMES, DENSITY_TIMES = "E of element set {}, over that of the deck", "density of element set {}, over that of the deck"

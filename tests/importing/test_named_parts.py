@@ -122,6 +122,7 @@ def test_nothing_is_left_of_a_set_that_is_missing_however_stiff_its_material_tur
     )
     _, K, M = truss()
     kept = np.arange(15, 36)
+    assert [recipe.title(np.array([share])) for share in (0.5, 0.995)] == ["", "a missing part"]
     expected = eigh(1.1 * K["FRAME"][np.ix_(kept, kept)], M["FRAME"][np.ix_(kept, kept)], eigvals_only=True)
     gone = recipe.unknowns[0].upper
     change = recipe.change(np.array([gone]))

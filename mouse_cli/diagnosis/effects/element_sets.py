@@ -14,7 +14,7 @@ from mouse_cli.model.arrays import Matrix, upper_triangle
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.held import ElementGroup
 from mouse_cli.model.problem import Problem
-from mouse_cli.model.revision import DENSITY_TIMES, E_TIMES, MASS_GAINED, MASS_LOST, PART_LEFT
+from mouse_cli.model.revision import DENSITY_TIMES, E_TIMES, GONE, MASS_GAINED, MASS_LOST, PART_LEFT
 
 # Share lost of a set that is missing: a thousandth of a stiff plate still holds what it is fastened to, and of a slender part less
 # than 1e-8 is lost in the 14 digits of a solver's file.
@@ -103,7 +103,7 @@ def _missing(candidate, group: ElementGroup, K: _Part, M: _Part, count: int) -> 
         return with_part_left(problem, left, K=(K.entries(1), K.slopes), M=(M.entries(1), M.slopes))
 
     found = _recipe(candidate, _MISSING, group, count, (K.own, M.own), -1, extend)
-    return replace(found, grows=(K.grows, M.grows))
+    return replace(found, grows=(K.grows, M.grows), title=lambda values: "a missing part" if values[0] > 1 - GONE else "")
 
 
 def _remade(candidate, group: ElementGroup, K: _Part, M: _Part, count: int) -> Recipe:
