@@ -128,7 +128,16 @@ def _elsewhere(verdict: Verdict, location: Location | None) -> Iterator[str]:
     )
 
 
+def on_set(one, other, groups) -> bool:
+    """Whether a cause of an element set acts at another site: a degree of freedom of a node of its elements."""
+    nodes = next((group.nodes for group in groups if one.text == f"element set {group.name}"), ())
+    digits = str(other.ids[0]).rstrip("TRXYZ") if other.ids else ""
+    return digits.isdigit() and int(digits) in nodes
+
+
 def _near(one, other, best) -> bool:
+    if on_set(one, other, best.model.base.problem.groups):
+        return True
     if one.position is None or other.position is None:
         return bool(one.ids) and one.ids == other.ids
     return float(np.linalg.norm(np.subtract(one.position, other.position))) < _FAR * span(best.model.base)

@@ -8,11 +8,13 @@ from scipy.linalg import eigh
 from scipy.sparse import csr_matrix, save_npz
 
 from mouse_cli import DeckError, diagnose, read_deck, write_deck
+from mouse_cli.diagnosis.cautions import on_set
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.model.arrays import dense
-from mouse_cli.model.diagnosis import Choices
+from mouse_cli.model.diagnosis import Choices, Site
+from mouse_cli.model.held import ElementGroup
 from mouse_cli.terms.assembly import assembly
 
 NODES, FEET = 12, {"FOOT_1": (1, 2, 3), "FOOT_2": (4, 5)}
@@ -325,3 +327,11 @@ def test_supports_that_fit_nothing_are_refused(tmp_path, more):
     with pytest.raises(DeckError) as refused:
         read_deck(deck(tmp_path, more=more))
     assert [each.code for each in refused.value.diagnostics] == ["MD276"]
+
+
+def test_shapes_that_point_to_a_node_of_a_set_do_not_speak_against_it():
+    """A spring of the job at node 190 that is softer acts at 190TZ."""
+    groups = (ElementGroup("FOOT", nodes=(190,)), ElementGroup("LUG", nodes=(1, 2)))
+    foot, lug = (Site("dof", (), None, f"element set {name}") for name in ("FOOT", "LUG"))
+    there = Site("dof", ("190TZ",), (0.0, 0.0, 0.0), "degree of freedom 190TZ")
+    assert on_set(foot, there, groups) and not on_set(lug, there, groups)
