@@ -15,7 +15,7 @@ from mouse_cli.model.channel_units import COMMON, target, unit
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.recording import MOTIONS, Channel, Recording
 from mouse_cli.updating.recordings.free_force import Spectrum
-from mouse_cli.updating.recordings.records import records, reduced
+from mouse_cli.updating.recordings.records import in_order, records, reduced
 from mouse_cli.updating.recordings.regression import Regression
 from mouse_cli.updating.recordings.series import Series
 from mouse_cli.updating.recordings.study import Study
@@ -55,20 +55,19 @@ def check(own: Study) -> None:
 
 
 def _record(own: Study, look: Series) -> tuple[Recording, np.ndarray]:
-    """The recording that a series is of, and its outputs (t, s) as they were read."""
-    title = look.title.removesuffix(", its end")
-    record = next(one for one in own.problem.recordings if one.title == title)
-    outputs = [_column(record, one) for one in own.records.outputs]
-    return record, record.samples[:, outputs]
+    """The recording that a series is of, its channels in the order of the first, and its outputs (t, s) as they were read."""
+    title, first = look.title.removesuffix(", its end"), own.problem.recordings[0]
+    record = in_order(next(one for one in own.problem.recordings if one.title == title), first)
+    return record, record.samples[:, _columns(own.problem, own.records.outputs)]
 
 
 def _check(own: Study, look: Series, before: float, by_channel: np.ndarray) -> None:
     """Raise DeckError (MD457) where a record, of which the model leaves so much, is explained in another reading."""
     problem, (record, _) = own.problem, _record(own, look)
-    outputs = [_column(record, one) for one in own.records.outputs]
+    outputs = _columns(problem, own.records.outputs)
     worst = [outputs[i] for i in np.argsort(-by_channel)[:_WORST]]
     found = []
-    for each in _readings(problem, record, outputs, [_column(record, one) for one in own.records.inputs], worst):
+    for each in _readings(problem, record, outputs, _columns(problem, own.records.inputs), worst):
         after = _read(own, each.of(record), outputs, look)
         if after < _GAINED * min(before, 1.0):
             found.append((after, each))
@@ -90,8 +89,9 @@ def _told(problem: Problem, record: Recording, before: float, found: list[tuple[
     return Diagnostic("MD457", ERROR, message, problem.place(name), f"as well fits: {note}" if note else "", remedy)
 
 
-def _column(record: Recording, channel: Channel) -> int:
-    return record.channels.index(channel)
+def _columns(problem: Problem, channels: tuple[Channel, ...]) -> list[int]:
+    """Of channels of the first recording: files of other runs may call theirs otherwise."""
+    return [problem.recordings[0].channels.index(one) for one in channels]
 
 
 def _read(own: Study, record: Recording, outputs: list[int], seen: Series) -> float:

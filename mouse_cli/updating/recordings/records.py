@@ -45,12 +45,13 @@ def records(problem: Problem) -> Records:
     said: list[str] = []
     first = fitted[0] if fitted else held[0]
     inputs, outputs = _channels(problem, first)
-    alike = [_rung(one, outputs) for one in fitted if _alike(one, first)]
+    ordered = lambda every: [_rung(own, outputs) for one in every if (own := in_order(one, first)) is not None]
+    alike = ordered(fitted)
     if len(alike) < len(fitted):
         said.append(
             f"{len(fitted) - len(alike)} recordings have other channels or another rate than the first and were left out"
         )
-    held = [_rung(one, outputs) for one in held if _alike(one, first)]
+    held = ordered(held)
     floors = {id(one): _floor(one.samples[:, outputs]) for one in [*alike, *held]}
     sd = np.max([floors[id(one)] for one in alike], axis=0)
     clear = lambda one: _disturbance(one).cleared_by(one.samples[:, outputs], one.time_step_s, BLOCK)
@@ -138,11 +139,24 @@ def cannot_judge(problem: Problem) -> tuple[Diagnostic, ...]:
     return ()
 
 
-def _alike(one: Recording, other: Recording) -> bool:
-    same = lambda r: [
-        (c.role, c.quantity, c.weights, c.ground, c.frame, c.gain_sd, c.delay_sd, c.noise_sd) for c in r.channels
-    ]
-    return abs(one.time_step_s / other.time_step_s - 1) < 1e-6 and one.free == other.free and same(one) == same(other)
+def in_order(one: Recording, first: Recording) -> Recording | None:
+    """A recording with its channels in the order of those of `first`, whatever files call them; None where they, or rates, are others."""
+    if abs(one.time_step_s / first.time_step_s - 1) >= 1e-6 or one.free != first.free:
+        return None
+    own, order = list(map(_measures, one.channels)), []
+    for each in map(_measures, first.channels):
+        j = next((j for j, other in enumerate(own) if other == each and j not in order), None)
+        if j is None:
+            return None
+        order.append(j)
+    if len(order) < len(own):
+        return None
+    return replace(one, channels=tuple(one.channels[j] for j in order), samples=one.samples[:, order])
+
+
+def _measures(c: Channel) -> tuple:
+    """What a channel measures and how well, whatever it is called."""
+    return c.role, c.quantity, c.weights, c.ground, c.frame, c.gain_sd, c.delay_sd, c.noise_sd
 
 
 def _series(problem: Problem, record: Recording, inputs: list[int], outputs: list[int], sd: np.ndarray) -> Series:
