@@ -37,6 +37,7 @@ SPRING = Found("spring", "at 3", 50.0, (0.01,))
     ("friction", "kept"),
     [
         (Found("friction", "at 3", 46.0, (0.01, 30.0)), False),  # it never slips: the spring again
+        (Found("friction", "at 3", 51.5, (0.01, 30.0)), False),  # their ranges differ, and nothing else
         (Found("friction", "at 3", 46.0, (0.01, 0.1)), True),  # its slip is seen
         (Found("friction", "at 2", 46.0, (0.01, 30.0)), True),  # elsewhere nothing else is that spring
         (Found("friction", "at 3", 54.0, (0.01, 30.0)), True),  # the spring does not do as well

@@ -140,7 +140,7 @@ def cannot_judge(problem: Problem) -> tuple[Diagnostic, ...]:
 
 
 def in_order(one: Recording, first: Recording) -> Recording | None:
-    """A recording with its channels in the order of those of `first`, whatever files call them; None where they, or rates, are others."""
+    """A recording with its channels in the order of those of `first`, whatever files call them; None where they or rates differ."""
     if abs(one.time_step_s / first.time_step_s - 1) >= 1e-6 or one.free != first.free:
         return None
     own, order = list(map(_measures, one.channels)), []

@@ -19,7 +19,7 @@ from mouse_cli.updating.recordings.law_forces import linear_force, stepped
 
 _APART = 0.15  # of the logarithm of a size, from which on two starts are two
 _FAR = 0.7  # most that ln parameters of a law that is there already move in a first look
-_HELD = 1e3  # times as sure as its prior that a factor of all masses, stiffnesses and dampings is
+_HELD = 1e3  # times as sure as its prior that a factor of all masses, stiffnesses and dampings, or of all gains, is
 _SIDE_BY_SIDE, _FOLLOWED = 16, 1e-9  # columns at a time; share of one that is left where nuisances do the same
 _STEP = 1e-3  # of ln parameters, in differences
 _BEGIN = 0.02  # share of the record whose states are not known well, left out
@@ -91,16 +91,22 @@ class Regression:
         self.target -= self.Q @ (self.Q.T @ self.target)
 
     def _held(self) -> np.ndarray:
-        """Rows of the prior (k or k + 1, k); where the ground alone moves the model, with its common factor held.
+        """Rows of the prior (k and more, k), with what would make everything nothing held: where the ground alone moves the model,
+        its common factor, and where all channels may have gains, theirs.
 
-        The recorded motion asks the model as it is for a force, and a model of nothing asks for none.
+        The recorded motion asks the model as it is for a force, and a model of nothing asks for none; channels that read nothing
+        of a force and nothing of a motion leave nothing to explain.
         """
-        k = self.J.shape[1]
-        found = np.zeros(k)
+        k, first = self.J.shape[1], self.base.linear.k
+        rows = np.zeros((2, k))
         if self.base.ground:
-            found[: self.base.linear.k] = self.base.linear.common
-        size = np.linalg.norm(found)
-        return np.eye(k) if size == 0 else np.vstack([np.eye(k), _HELD / size * found])
+            rows[0, :first] = self.base.linear.common
+        channels = self.spectrum.series.measured.shape[1] + self.spectrum.series.force.shape[1]
+        gains = np.array([sd for _, sd in self.base.channels.gain])
+        if len(gains) == channels:  # of all alike, in sd of each
+            rows[1, first : first + channels] = 1 / gains
+        sizes = np.linalg.norm(rows, axis=1, keepdims=True)
+        return np.vstack([np.eye(k), *(_HELD / size * row for row, size in zip(rows, sizes, strict=True) if size)])
 
     def _answer(self, x: np.ndarray) -> np.ndarray:
         """What the laws of the deck and of the hypothesis, at x (k,), take off the outputs (t, s), at the motion of the record."""

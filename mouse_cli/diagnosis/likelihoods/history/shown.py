@@ -4,6 +4,7 @@ where damping is assumed.
 
 import numpy as np
 
+from mouse_cli.diagnosis.gates import ODDS
 from mouse_cli.updating.recordings.acting import Part
 from mouse_cli.updating.recordings.adequacy import adequate
 from mouse_cli.updating.recordings.fit import Fit
@@ -26,15 +27,17 @@ def shown(study: Study, found: list[Fit], dropped: dict[str, str]) -> list[Fit]:
 
 
 def once(found: list[Fit], dropped: dict[str, str]) -> list[Fit]:
-    """Fits without those whose law is seen as what a plainer one beside it is, as likely at least: one hypothesis is weighed once.
+    """Fits without those whose law is seen as what a plainer one beside it is, unless they are sure against it: one hypothesis is
+    weighed once.
 
-    Friction that never slips is a spring, with a slip force that no record tells.
+    Friction that never slips is a spring, with a slip force that no record tells: their evidence differs by the ranges of their
+    sizes, which is nothing that a record says.
     """
     plain = {tuple(_seen(one)): one.log_evidence for one in found if not _limited(one)}
     kept = []
     for one in found:
         limited = _limited(one)
-        if limited and plain.get(tuple(_seen(one)), -np.inf) >= one.log_evidence:
+        if limited and plain.get(tuple(_seen(one)), -np.inf) >= one.log_evidence - ODDS:
             part = limited[0]
             size = part.unknowns[part.law.limit[0]].name
             dropped[part.law.key] = f"{part.place.site.text}: no record reaches its {size}, and a plainer law is what it is below"
