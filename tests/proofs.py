@@ -162,6 +162,7 @@ LONG: dict[str, tuple[str, ...]] = {
     "reference/test_group_fields.py": ("test_a_wave_over_six_strips_is_a_field_of_them[mass]", "test_one_soft_strip_has_a_name"),
     "reference/test_gyroscopic.py": (
         "test_a_rotor_at_speed_and_its_deck_with_the_coupling", "test_a_dashpot_between_the_planes_is_no_spin",
+        "test_the_tilts_of_a_disc_that_nobody_measures_are_coupled_too",
     ),
     "reference/test_identification.py": (
         "test_noise_alone_has_no_modes", "test_three_storey_building", "test_the_three_forces_agree_within_what_is_stated",

@@ -15,7 +15,8 @@ from mouse_cli.updating.recordings.uncertain import links
 
 # Of the stiffness of the whole structure, of which that of a mass on a few springs is so many times at most
 _WHOLE = 5.0
-_MOST_APART = 10  # pairs of measured degrees of freedom without a link that are looked at: those of five
+_MOST_APART = 10  # pairs of measured degrees of freedom without a link that are looked at: those of five; of unmeasured tilts
+_EQUAL = 0.1  # of the logarithm of an inertia, up to which it is that of a disc about another diameter
 
 
 def motions(problem: Problem, sensed: np.ndarray) -> Iterator[tuple[Site, np.ndarray, float]]:
@@ -55,22 +56,32 @@ def bodies(problem: Problem) -> Iterator[tuple[Site, list[int]]]:
 
 
 def planes(problem: Problem, sensed: np.ndarray) -> Iterator[tuple[Site, int, int]]:
-    """Site and degrees of freedom of pairs of directions of one body, of which one at least is driven or measured.
+    """Site and degrees of freedom of pairs of directions of one body: all of which one at least is driven or measured, and of
+    others a few that are most like the tilts of a disc, which nobody measures: of the same inertia, and of the largest.
 
     Numbers of a matrix model have no directions: two of them are of different planes where neither stiffness nor mass joins them.
     """
     labels = problem.structure.labels
-    part = _parts(problem)
-    for i, j in combinations(range(len(labels)), 2):
-        if not (sensed[i] or sensed[j]):
-            continue
-        if labels[i].isdigit() and labels[j].isdigit():
-            crossing = part[i] != part[j]
-        else:
-            crossing = labels[i][:-2] == labels[j][:-2] and labels[i][-2:-1] == labels[j][-2:-1]
-        if crossing:
+    pairs = list(_crossing(problem))
+    inertia = assembly(problem).matrices(problem.prior.mean)[1].diagonal()
+    size = lambda pair: np.log(np.maximum(inertia[list(pair)], 1e-300))
+    as_disc = lambda pair: (not _turns(labels[pair[0]]), bool(np.ptp(size(pair)) > _EQUAL), -size(pair).sum())
+    unseen = sorted((pair for pair in pairs if not sensed[list(pair)].any()), key=as_disc)[:_MOST_APART]
+    for i, j in pairs:
+        if sensed[i] or sensed[j] or (i, j) in unseen:
             text = f"between {_named(labels[i])} and {_named(labels[j])}"
             yield Site("dof", (labels[i], labels[j]), text=text), i, j
+
+
+def _crossing(problem: Problem) -> Iterator[tuple[int, int]]:
+    """Pairs of directions of one body, or of different planes of a matrix model."""
+    labels, part = problem.structure.labels, _parts(problem)
+    for i, j in combinations(range(len(labels)), 2):
+        if labels[i].isdigit() and labels[j].isdigit():
+            if part[i] != part[j]:
+                yield i, j
+        elif labels[i][:-2] == labels[j][:-2] and labels[i][-2:-1] == labels[j][-2:-1]:
+            yield i, j
 
 
 def _parts(problem: Problem) -> np.ndarray:
