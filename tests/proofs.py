@@ -271,4 +271,5 @@ LONG: dict[str, tuple[str, ...]] = {
         "test_a_ring_is_sound_but_for_a_mass_that_splits_its_modes[0.1]",
     ),
     "reference/test_turned_section.py": ("test_a_part_on_its_side_is_named_with_its_place",),
+    "reference/test_yielding.py": ("test_a_spring_that_yields_is_named_with_its_force",),
 }  # fmt: skip

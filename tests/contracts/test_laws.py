@@ -78,6 +78,16 @@ def test_friction_loop_dissipates_what_it_should():
     assert np.trapezoid(force[cycle], x[cycle]) == pytest.approx(4 * Fs * (A - Fs / kt), rel=1e-3)
 
 
+def test_a_spring_that_yields_is_as_stiff_as_modelled_and_then_dissipates_as_friction_does():
+    ky, Fy, A = 1e5, 40.0, 2e-3
+    law, x = registry()["yielding"], A * np.sin(np.linspace(0, 4 * np.pi, 20001))
+    assert not along(law, np.array([ky, 1.001 * ky * A]), x, {}).any()
+    with_spring = along(law, np.array([ky, Fy]), x, {}) + ky * x
+    assert np.abs(with_spring).max() == pytest.approx(Fy)
+    assert np.trapezoid(with_spring[10000:], x[10000:]) == pytest.approx(4 * Fy * (A - Fy / ky), rel=1e-3)
+    assert law.seen_as(np.array([0.001, 3.0])) == registry()["spring"].group  # what yields at once is a spring that is lost
+
+
 def test_iwan_slips_at_its_slip_force_and_is_as_stiff_as_said():
     F, K = 60.0, 2e5
     p, law = np.array([F, K, 0.5, 1.5]), registry()["iwan"]
