@@ -6,8 +6,9 @@ from mouse_cli.terms.laws import Law, Scale, Unknown
 
 
 def force(x, v, z, p):
-    """F = -ky z, z what the part has yielded: with the spring k of the model, k x at first and (k - ky) x + Fy sgn x beyond (bilinear
-    hysteresis with kinematic hardening: A. K. Chopra, Dynamics of Structures, 2017, section 7.2).
+    """F = -ky z, z what the part has yielded: with the spring k of the model k x at first, and (k - ky) x + Fy sgn x beyond.
+
+    Bilinear hysteresis with kinematic hardening (A. K. Chopra, Dynamics of Structures, 2017, section 7.2).
     """
     limit = p[1] / p[0]
     yielded = x - np.minimum(np.maximum(x - z[0], -limit), limit)
