@@ -211,6 +211,7 @@ class Polish:
         moved = np.linalg.solve(H + damping * np.diag(np.diag(H)), g) if len(at.x) else np.zeros(0)
         return moved, np.stack([b[:, -1] - b[:, :-1] @ moved for b in backs], axis=1)
 
+    @np.errstate(over="ignore", invalid="ignore")
     def _bent(self, slopes: Slopes, at: _At, damping: float, dx: np.ndarray, ds: np.ndarray):
         """A step dx, ds with its second order, along valleys that bend: parameters that act alike, one of them by its logarithm.
 
@@ -226,7 +227,7 @@ class Polish:
         half = _At(self.h.mean, np.zeros_like(at.states), -bend / _PROBE, 0.0)  # of the second derivative
         d2x, d2s = self._step(slopes, half, damping)
         size = lambda a, b: float((a @ a) + ((b / self.spread[:, None]) ** 2).sum())
-        return (dx, ds) if size(d2x, d2s) > _LESS**2 * size(dx, ds) else (dx + d2x, ds + d2s)
+        return (dx + d2x, ds + d2s) if size(d2x, d2s) <= _LESS**2 * size(dx, ds) else (dx, ds)
 
     def _lost(self, s: int, t: int, G: int) -> int:
         """Amplitudes of hum and drift that the stretches have free."""
