@@ -1,0 +1,67 @@
+"""A structure that changes while it is recorded: linear before and after, both integrated by scipy."""
+
+import json
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from scipy.signal import lsim
+from two_masses import DECK, K, record
+
+from mouse_cli.cli.main import cli
+from mouse_cli.formats import read_deck
+from mouse_cli.updating.recordings.changed import changed
+from mouse_cli.updating.recordings.records import records
+from mouse_cli.updating.recordings.study import study
+
+RATE, FINER, SECONDS = 512, 8, 16.0
+
+
+def loosened(folder, share: float, at_s: float, louder: float = 1.0) -> str:
+    """A deck whose record is of two masses, the spring between which keeps so much of its stiffness from a moment on; the force is
+    so many times as large then.
+    """
+    rng, t = np.random.default_rng(3), np.arange(int(SECONDS * RATE * FINER)) / (RATE * FINER)
+    hz = np.fft.rfftfreq(len(t), t[1])
+    f = np.fft.irfft(np.where((hz > 2) & (hz < 60), np.exp(2j * np.pi * rng.uniform(size=len(hz))), 0), len(t))
+    f *= 40 / f.std() * np.where(t < at_s, 1.0, louder) * np.minimum(t / 0.2, 1)
+    begun, motion = np.zeros(4), []
+    for own, k in ((t < at_s, 3e4), (t >= at_s, 3e4 * share)):
+        stiff = 1.01 * np.array([[2e4 + k, -k], [-k, k]])
+        A = np.block([[np.zeros((2, 2)), np.eye(2)], [-stiff, -1.2e-4 * K]])
+        B = np.array([[0.0], [0.0], [0.0], [1.0]])
+        _, a, x = lsim((A, B, A[2:], B[2:]), f[own], t[own] - t[own][0], begun)
+        begun = x[-1]
+        motion.append(a)
+    a = np.concatenate(motion)[::FINER]
+    a += 0.01 * a.std(axis=0) * rng.standard_normal(a.shape)
+    np.savez(folder / "run.npz", f=f[::FINER], a1=a[:, 0], a2=a[:, 1])
+    outputs = ", ".join(f"{{sensor: {i}, channel: a{i}, quantity: acceleration, unit: m/s2}}" for i in (1, 2))
+    (folder / "deck.yaml").write_text(DECK.format(rate=RATE, outputs=outputs))
+    return str(folder / "deck.yaml")
+
+
+@pytest.mark.parametrize("at_s", [2.5, 6.1])
+def test_when_it_changed_is_told_with_what_did(tmp_path, at_s):
+    """It was a search of all laws, and what came nearest a law that leaves 1271 times the noise."""
+    done = CliRunner().invoke(cli, ["diagnose", loosened(tmp_path, 0.6, at_s), "--json", "-q"])
+    found = json.loads(done.stdout)
+    problem = read_deck(tmp_path / "deck.yaml")
+    when = changed(study(problem, records(problem)))
+    assert found["verdict"]["kind"] == "unknown" and when.said() in found["cautions"]
+    assert when.last[1] <= at_s * RATE <= when.first[1] and when.first[1] - when.last[1] < 3 * RATE
+    assert when.moved[0] == ("k2", pytest.approx(-8.0, abs=0.6))  # 40 % at an sd of 5 %
+
+
+@pytest.mark.parametrize(
+    "deck",
+    [
+        lambda folder: loosened(folder, 1.0, 6.1),
+        lambda folder: loosened(folder, 0.6, 6.1, louder=3.0),  # another stiffness at another level may be a law
+        lambda folder: record(folder, lambda u, v: 2e9 * (u[1] - u[0]) ** 3 * np.array([-1.0, 1.0])),
+    ],
+    ids=["sound", "louder", "cubic"],
+)
+def test_what_is_the_same_all_the_time_has_not_changed(tmp_path, deck):
+    problem = read_deck(deck(tmp_path))
+    assert changed(study(problem, records(problem))) is None
