@@ -158,6 +158,11 @@ def within(explanations: Sequence[Explanation], one: Explanation) -> str:
     >>> both = of("crack", "an open crack", 0.6), of("stiffness-loss", "a softer part", 0.3)
     >>> grouped(both, both[0]), within(both, both[0]), within(both[:1], both[0])
     ('a local loss of stiffness', 'an open crack 0.67, a softer part 0.33', '')
+
+    Of the signs of one law that is called which is the most probable:
+
+    >>> within([of("spring", "a spring (added)", 0.6), both[0], of("spring", "a spring (lost)", 0.0)], both[0])
+    'a spring (added) 0.50, an open crack 0.50'
     """
     return _members(explanations, members(explanations, one.group))
 
@@ -171,7 +176,7 @@ def inside(found: Diagnosis) -> str:
 
 def _members(explanations: Sequence[Explanation], listed: Sequence[tuple[str, float]]) -> str:
     found = [(physics, p) for physics, p in listed if p >= LEAST]
-    title = {cause.physics: cause.title for each in explanations for cause in each.causes}
+    title = {cause.physics: cause.title for each in reversed(explanations) for cause in each.causes}
     named = lambda key: key if title[key] in TITLES.values() else title[key]
     words = lambda physics: counted([named(key) for key in physics.split(" + ")])
     return ", ".join(f"{words(physics)} {probable(p)}" for physics, p in found) if len(found) > 1 else ""
