@@ -41,9 +41,9 @@ def diagnose_records(problem: Problem, notice: Notice, choices: Choices, own: St
     decision = decided(ranking, searched, ratio(proof), own.look.free, known is None)
     kind = decision.kind
     told = best if kind in (NAMED, ONE_OF) else None
-    strange = odd(best or baseline, own.data) if kind == UNKNOWN and searched.changed is None else None
+    strange = odd(best or baseline, own.data) if kind == UNKNOWN and not searched.otherwise else None
     cautions = decision.cautions + remedies(told, own) + (() if strange is None else (strange.said(found.outputs),))
-    cautions += () if searched.changed is None else (searched.changed.said(),)
+    cautions += (searched.otherwise,) if searched.otherwise else ()
     dof = max(int(baseline.dof), 1)
     return RecordDiagnosis(
         problem=problem,

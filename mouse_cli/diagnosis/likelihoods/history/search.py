@@ -21,8 +21,9 @@ from mouse_cli.terms.laws import registry as laws
 from mouse_cli.updating.recordings.acting import Place
 from mouse_cli.updating.recordings.adequacy import adequate, innovation, missing, strained, unlikely, with_noise
 from mouse_cli.updating.recordings.at_odds import odd
-from mouse_cli.updating.recordings.changed import Changed, changed
+from mouse_cli.updating.recordings.changed import changed
 from mouse_cli.updating.recordings.channels import Misreading, misreadings
+from mouse_cli.updating.recordings.disturbed import disturbed
 from mouse_cli.updating.recordings.fit import Fit
 from mouse_cli.updating.recordings.misread import misread
 from mouse_cli.updating.recordings.mistakes import check
@@ -50,7 +51,7 @@ class Weighed:
 
     noise: what is left beside the explanation `beside`, where that is more than the accuracy of the channels and yet noise.
     dropped: keys of laws that were fitted and that the records cannot show, with the reason; they are not among the fits.
-    changed: when the structure itself changed, so that no law was sought.
+    otherwise: what explains the records, though no law does, so that none was sought: a sentence.
     """
 
     baseline: Fit
@@ -58,7 +59,7 @@ class Weighed:
     noise: Noise | None = None
     beside: Fit | None = None
     dropped: tuple[tuple[str, str], ...] = ()
-    changed: Changed | None = None
+    otherwise: str = ""
 
 
 def weighed(study: Study, notice: Notice, known: list[Law] | None = None, causes: int = 2) -> Weighed:
@@ -79,8 +80,10 @@ def weighed(study: Study, notice: Notice, known: list[Law] | None = None, causes
     noisy = quiet is not None and not strained(baseline, with_noise(baseline, quiet))
     if noisy and not doubtful(study.spectrum, study.base, study.places, quiet):
         return Weighed(baseline, [], quiet, baseline)
+    if said := disturbed(study, baseline):
+        return Weighed(baseline, [], quiet, baseline if noisy else None, otherwise=said)
     if not noisy and (when := changed(study)) is not None:
-        return Weighed(baseline, [], changed=when)
+        return Weighed(baseline, [], otherwise=when.said())
     dropped: dict[str, str] = {}
     found = undamped(study, shown(study, _singles(study, notice, known, baseline), dropped), dropped)
     best = min([baseline, *found], key=innovation)
