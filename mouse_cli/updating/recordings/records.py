@@ -14,6 +14,7 @@ from mouse_cli.updating.recordings.uncertain import Uncertain
 
 FLOOR = 0.01  # of the rms of a channel: no transducer and no theory is more accurate
 _SEEN = 0.05  # floor of the spectrum of an excitation, by its rms, up to which it is noise and no excitation
+_CREST = 5.0  # peak of a random excitation, by its rms
 _FLAT = 1.2  # level by the floor, that three tenths of its spectrum stay below where the floor is white noise
 HELD = 0.3  # share at the end of each record that is held out where the deck holds nothing out
 _LINES = 32  # spectral lines averaged for the noise floor
@@ -212,7 +213,9 @@ def _excitation_noise(force: np.ndarray, stated: np.ndarray) -> np.ndarray:
     """
     rms, groups = force.std(axis=0), _levels(force)
     floor, more = _floor(force), np.sqrt(np.quantile(groups, 0.3, axis=0))
-    seen = (floor < _SEEN * rms) & (more < _FLAT * floor)
+    peak = np.abs(force - np.median(force, axis=0)).max(axis=0)
+    loud = np.maximum(rms, peak / _CREST)  # strokes are short, and their rms is no measure of them
+    seen = (floor < _SEEN * loud) & (more < _FLAT * floor)
     return np.where(stated > 0, stated * rms, np.where(seen, floor, 0.0))
 
 
