@@ -16,6 +16,7 @@ from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.problem import Problem
 
 _PLACES = 6  # about so many of those on a line to begin from: there are many sizes for each
+_BEGUN = 14, 5  # frequencies to begin from, of mounts that are alike, and of others, which the same looks begin
 _ALIKE = 0.5  # prior probability that its mounts are as stiff along every axis
 
 
@@ -35,7 +36,7 @@ def _recipe(model: Reduced, candidate: Candidate, point: Points, own: bool, shar
     m = Unknown("mass", "kg", *(BODY * total_mass(model)))
     f = Unknown("frequency", "Hz", 0.3 * hz[0], 1.5 * hz[1])
     measured = model.data.test.frequency_hz[model.data.has_frequency]
-    begun = np.concatenate([steps(f, 14), measured])[:, None]  # one of those measured may be its own
+    begun = np.concatenate([steps(f, _BEGUN[own]), measured])[:, None]  # one of those measured may be its own
     each = tuple(replace(f, name=f"frequency, {DIRECTIONS[k]}") for k in point.dofs) if own else (f,)
     made = placed(candidate, point, (m, *each), (np.zeros(1),) * (1 + len(each)), _change, _with_mounts, own=d)
     grid = [

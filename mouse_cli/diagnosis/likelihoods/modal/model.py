@@ -281,8 +281,19 @@ class Model(Carrying):
 
 
 def modes_of(K: np.ndarray, M: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Eigenvalues (size,) and mass-normalised shapes of symmetric K and M, which are overwritten; NaN where M is no mass."""
-    from scipy.linalg.lapack import dsygvd
+    """Eigenvalues (size,) and mass-normalised shapes of symmetric K and M, which are overwritten; NaN where M is no mass.
 
-    eigenvalues, X, fault = dsygvd(K.T, M.T, overwrite_a=1, overwrite_b=1)
-    return (np.full(len(K), np.nan) if fault else eigenvalues), X
+    In coordinates of the modes M is diagonal wherever nothing but stiffness changes, and needs no factor: a quarter of the time.
+    """
+    from scipy.linalg.lapack import dsyevd, dsygvd
+
+    n = len(K)
+    if M.ravel()[1:].reshape(n - 1, n + 1)[:, :-1].any() or M.diagonal().min() <= 0:
+        eigenvalues, X, fault = dsygvd(K.T, M.T, overwrite_a=1, overwrite_b=1)
+    else:
+        by = 1 / np.sqrt(M.diagonal())
+        K *= by
+        K *= by[:, None]
+        eigenvalues, X, fault = dsyevd(K.T, overwrite_a=1)
+        X *= by[:, None]
+    return (np.full(n, np.nan) if fault else eigenvalues), X
