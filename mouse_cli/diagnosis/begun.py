@@ -81,18 +81,17 @@ def _modelled(problem: Problem, solver: EigenSolver) -> tuple[Reduced, tuple[str
     """The reduced model at the prior mean, corrected for its mesh, its data allowed what that leaves; what to say of it, and of a
     mesh that is too coarse.
 
-    Functions are of the matrices as they are, so that a model of these is not corrected.
+    Functions are of the matrices as they are, so that a model of these is not corrected, and is too coarse sooner.
     """
     model = reduced(problem, problem.prior.mean, solver)
     bare = Model(model).point(model.z)
     if bare is None:
         return model, (), ""
     found = numerics(problem, problem.prior.mean, *_looked_at(model, bare))
-    coarse = found.coarse(found.allowed(model, bare))
     found = replace(found, finer=None) if problem.frf else found
     mesh, still = found.allowed(model, bare), np.zeros(model.data.has_shape.shape)
     model = replace(model, finer=found.finer, mesh=mesh, data=model.data.loosened(mesh[bare.modes], still))
-    return replace(model, ties=ties(model)), found.remarks, coarse
+    return replace(model, ties=ties(model)), found.remarks, found.coarse(mesh)
 
 
 def _looked_at(model: Reduced, bare: Point) -> tuple[np.ndarray, np.ndarray]:

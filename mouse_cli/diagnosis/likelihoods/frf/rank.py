@@ -16,6 +16,8 @@ from mouse_cli.diagnosis.likelihoods.frf.judge import BRIEF, THIN, Judge
 from mouse_cli.diagnosis.likelihoods.frf.lossy import GROUPS, LAWS
 from mouse_cli.diagnosis.likelihoods.frf.mesh import of_mesh
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.noise import log_density
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.moves import adequate
 from mouse_cli.diagnosis.search.optima import distinct, within
@@ -81,10 +83,20 @@ def ranked_by_frf(modal: Ranking, measured: bool) -> Ranking:
         judge = replace(judge, data=judge.data.reweighted(alike, _scatter(nearest)))
         fits = judge.all_of(fits)
     fits = _shared(_together(fits))
-    fits[0] = replace(fits[0], log_evidence=fits[0].log_evidence + of_mesh(fits[0], base) / 2)
+    fits[0] = _without_mesh(fits[0], base)
     found = ranking(fits[0], fits)
     views = {id(one): _beside_modes(one, base.data) for one in fits}
     return replace(found, baseline=views[id(fits[0])], fits=tuple(views[id(one)] for one in found.fits))
+
+
+def _without_mesh(none: Fit, base: Reduced) -> Fit:
+    """The fit without a cause, as probable as if its mesh had left nothing: no cause gains more than that by imitating the mesh.
+
+    Where the functions are far off for other reasons that is little of what the noise would have to be.
+    """
+    left = max(none.misfit - of_mesh(none, base), 0.0)
+    gained = float(log_density(left, none.dof) - log_density(none.misfit, none.dof))
+    return replace(none, log_evidence=none.log_evidence + gained)
 
 
 def _searched(judge: Judge, modal: Ranking) -> list[Fit]:
