@@ -13,7 +13,7 @@ from mouse_cli.diagnosis.effects.change import Recipe
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 
-_MADE = ("change", "site", "extend", "limit")  # functions of a recipe
+_MADE = ("change", "site", "extend", "limit", "title")  # functions of a recipe
 
 
 @dataclass(frozen=True)

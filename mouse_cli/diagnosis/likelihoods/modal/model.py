@@ -294,6 +294,6 @@ def modes_of(K: np.ndarray, M: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         by = 1 / np.sqrt(M.diagonal())
         K *= by
         K *= by[:, None]
-        eigenvalues, X, fault = dsyevd(K.T, overwrite_a=1)
+        eigenvalues, X, fault = dsyevd(K.T, lower=1, overwrite_a=1)  # small ones keep their digits from this end
         X *= by[:, None]
     return (np.full(n, np.nan) if fault else eigenvalues), X
