@@ -41,30 +41,31 @@ test:
 """
 
 
-def receptance(omega: np.ndarray) -> np.ndarray:
-    """H (f, o): deflections of a beam of Hermite elements for a force; its left end turns against a spring."""
-    l = LENGTH / ELEMENTS
+def receptance(omega: np.ndarray, each: int = 1) -> np.ndarray:
+    """H (f, o): deflections of a beam of Hermite elements, `each` for one of the deck, for a force; its left end turns on a spring."""
+    count = ELEMENTS * each
+    l = LENGTH / count
     k = EI / l**3 * np.array([[12, 6, -12, 6], [6, 4, -6, 2], [-12, -6, 12, -6], [6, 2, -6, 4]])
     m = MASS * l / 420 * np.array([[156, 22, 54, -13], [22, 4, 13, -3], [54, 13, 156, -22], [-13, -3, -22, 4]])
     unit = np.outer([1, l, 1, l], [1, l, 1, l])
-    K, M = np.zeros((2, 2 * ELEMENTS + 2, 2 * ELEMENTS + 2))
-    for e in range(ELEMENTS):
+    K, M = np.zeros((2, 2 * count + 2, 2 * count + 2))
+    for e in range(count):
         at = slice(2 * e, 2 * e + 4)
         K[at, at] += k * unit
         M[at, at] += m * unit
     K[1, 1] += SPRING
-    free = np.setdiff1d(np.arange(len(K)), [0, 2 * ELEMENTS])
+    free = np.setdiff1d(np.arange(len(K)), [0, 2 * count])
     K, M = K[np.ix_(free, free)] * (1 + 1j * ETA), M[np.ix_(free, free)]
-    load, rows = (free == 2 * FORCE).astype(float), np.searchsorted(free, 2 * np.array(READ))
+    load, rows = (free == 2 * FORCE * each).astype(float), np.searchsorted(free, 2 * each * np.array(READ))
     return np.array([np.linalg.solve(K - w * w * M, load)[rows] for w in omega])
 
 
 @pytest.fixture
 def deck(tmp_path):
-    """A deck of accelerances with 1 % noise, whose model holds the left end."""
+    """A deck of accelerances with 1 % noise, whose model holds the left end, and whose mesh is too coarse for them."""
     rng, hz = np.random.default_rng(4), np.linspace(10, 800, 1200)
     omega = 2 * np.pi * hz
-    H = -receptance(omega) * (omega**2)[:, None]
+    H = -receptance(omega, 4) * (omega**2)[:, None]
     variance = (0.01 * np.abs(H)) ** 2 + 0.002**2 * (np.abs(H) ** 2).mean(axis=0)
     H = H + np.sqrt(variance / 2) * (rng.standard_normal(H.shape) + 1j * rng.standard_normal(H.shape))
     names = {"output_names": [f"{n + 1}TY" for n in READ], "input_names": [f"{FORCE + 1}TY"], "kind": "accelerance"}
