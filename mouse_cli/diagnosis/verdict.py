@@ -24,6 +24,7 @@ from mouse_cli.model.diagnosis import (
     Explanation,
     HeldOut,
     Rest,
+    Site,
     Size,
 )
 from mouse_cli.model.groups import leading
@@ -247,8 +248,16 @@ def explanation(one: Fit, probability: float = 0.0) -> Explanation:
     causes = _causes(one)
     theta = one.model.base.parameters(one.point.x[: one.model.k])
     p = upper_tail(one.misfit, max(one.dof, 1))
-    elsewhere = tuple((other.sites, share) for other, share in one.elsewhere if share > RIVAL)
-    return Explanation(causes, one.misfit, one.dof, p, one.log_evidence, theta, probability, elsewhere)
+    return Explanation(causes, one.misfit, one.dof, p, one.log_evidence, theta, probability, _elsewhere(one))
+
+
+def _elsewhere(one: Fit) -> tuple[tuple[tuple[Site, ...], float], ...]:
+    """Other sites of a fit and their probabilities, where these matter: optima that read alike are one, and none is its own."""
+    found: dict[tuple[str, ...], list] = {}
+    for other, share in one.elsewhere:
+        found.setdefault(tuple(site.text for site in other.sites), [other.sites, 0.0])[1] += share
+    found.pop(tuple(site.text for site in one.sites), None)
+    return tuple((sites, share) for sites, share in found.values() if share > RIVAL)
 
 
 def certain(one: Fit, found: Shared) -> Certain:

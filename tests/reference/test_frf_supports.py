@@ -42,7 +42,7 @@ test:
 
 
 def receptance(omega: np.ndarray, each: int = 1) -> np.ndarray:
-    """H (f, o): deflections of a beam of Hermite elements, `each` for one of the deck, for a force; its left end turns on a spring."""
+    """H (f, o): deflections of a beam of Hermite elements, `each` for one of the deck; its left end turns on a spring."""
     count = ELEMENTS * each
     l = LENGTH / count
     k = EI / l**3 * np.array([[12, 6, -12, 6], [6, 4, -6, 2], [-12, -6, 12, -6], [6, 2, -6, 4]])

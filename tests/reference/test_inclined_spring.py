@@ -1,13 +1,18 @@
 """A guy on a cantilever that bends in two planes, which it couples; truth by finite elements (Hermite) written here."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from scipy.linalg import block_diag, eigh
 
 from mouse_cli.diagnosis import diagnose
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
+from mouse_cli.diagnosis.mechanisms import registry
+from mouse_cli.diagnosis.verdict import _elsewhere
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
-from mouse_cli.model.diagnosis import NAMED, Choices
+from mouse_cli.model.diagnosis import NAMED, Choices, Site
 
 E, A, RHO, L, N = 2.1e11, 4e-3, 7850.0, 3.0, 12
 IY, IZ = 1.6e-6, 2.6e-6
@@ -74,3 +79,18 @@ def test_a_guy_is_named_with_its_node_its_stiffness_and_its_direction():
     assert k.value == pytest.approx(K, abs=3 * k.sd) and k.sd < 0.1 * K
     assert angle.value == pytest.approx(ANGLE, abs=3 * angle.sd) and angle.sd < 0.05
     assert found.extended_result.status.key == "converged"
+
+
+def test_a_direction_and_its_opposite_read_alike():
+    problem = assemble(yaml_deck.read(deck(), "deck.yaml"))
+    candidate = registry()["inclined-spring"]
+    recipe = candidate.recipes(reduced(problem, problem.prior.mean), candidate)[0]
+    up, down = ([recipe.grid[0][0], angle, *recipe.grid[0][2:]] for angle in (np.pi / 2, -np.pi / 2))
+    assert recipe.site(np.array(up)).text == recipe.site(np.array(down)).text
+
+
+def test_other_sites_that_read_alike_are_one():
+    at = lambda text: (Site("element", (1,), None, text),)
+    others = [(SimpleNamespace(sites=at(text)), share) for text, share in (("b", 0.04), ("a", 0.3), ("b", 0.03), ("c", 0.02))]
+    found = _elsewhere(SimpleNamespace(sites=at("a"), elsewhere=tuple(others)))
+    assert [(sites[0].text, round(share, 9)) for sites, share in found] == [("b", 0.07)]

@@ -68,8 +68,9 @@ def _recipe(model: Reduced, candidate: Candidate, point: Points, axes: tuple[int
         return n
 
     def site(values: np.ndarray) -> Site:
-        here, n = point.site(values[t:]), ", ".join(f"{x + 0.0:.2f}" for x in direction(values))
-        return Site(here.kind, here.ids, here.position, f"{here.text}, along ({n})")
+        here, n = point.site(values[t:]), np.round(direction(values), 2)
+        n = n * np.sign(n[n != 0][0])  # a direction and its opposite are one line
+        return Site(here.kind, here.ids, here.position, f"{here.text}, along ({', '.join(f'{x + 0.0:.2f}' for x in n)})")
 
     def change(values: np.ndarray) -> Change:
         b = along(values[1:], axes, len(point.dofs)) @ point.motion(values[t:])
