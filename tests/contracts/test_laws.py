@@ -1,12 +1,15 @@
 """What every law of a local force must keep, and what single ones are known for."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from mouse_cli.model.diagnosis import Site
 from mouse_cli.terms.laws import Scale, registry
 from mouse_cli.terms.laws.iwan import sliders
+from mouse_cli.updating.recordings.acting import Part
 from mouse_cli.updating.recordings.law_forces import stepped
 
 SCALE = Scale(1e5, 1.0, 2e-3, 0.4, (5.0, 100.0), link=1e5)
@@ -122,3 +125,9 @@ def test_what_depends_on_parameters_alone_is_found_once_for_all_steps(law):
     found = stepped(counted, x, np.gradient(x), middle(law)[:, None], {})
     assert len(calls) == 1
     np.testing.assert_allclose(found[:, 0], np.ravel(along(law, middle(law), x, {})), rtol=1e-12)
+
+
+@pytest.mark.parametrize(("name", "says"), [("mass", "5TY"), ("oscillator", "5TY"), ("cubic", "between 5TY and the ground")])
+def test_what_has_inertia_of_its_own_is_at_its_place_and_a_force_between_that_and_the_ground(name, says):
+    place = SimpleNamespace(site=Site("dof", ("5TY",), text="between 5TY and the ground"))
+    assert Part(place, registry()[name], 0).site.text == says

@@ -1,6 +1,6 @@
 """Laws at their places: of a deck, and of a hypothesis with free parameters."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -83,6 +83,14 @@ class Part:
         """The law and its variant in words."""
         word = self.law.words[self.variant]
         return f"{self.law.title} ({word})" if word else self.law.title
+
+    @property
+    def site(self) -> Site:
+        """Where it acts: what has inertia of its own is at its place, and not between that and the ground."""
+        own = self.place.site
+        if self.law.at not in ("body", "ground"):
+            return own
+        return replace(own, text=own.text.removeprefix("between ").removesuffix(" and the ground"))
 
     @property
     def words(self) -> dict[str, float]:

@@ -54,5 +54,5 @@ class Fit:
             values = zip(part.unknowns, p[:, 0], own, strict=True)
             sizes = tuple(Size(u.name, u.unit, float(v), float(v * s), u.lower, u.upper) for u, v, s in values)
             group = part.law.seen_as(own)
-            found.append(Cause(part.law.key, group, part.title, part.place.site, sizes))
+            found.append(Cause(part.law.key, group, part.title, part.site, sizes))
         return tuple(found)

@@ -146,7 +146,7 @@ def _of_places(known: list[Law] | None) -> list[Law] | None:
 
 
 def _named(start: Start) -> str:
-    return " and ".join(f"{part.law.title}, {part.place.site.text}" for part in start.hypothesis.parts)
+    return " and ".join(f"{part.law.title}, {part.site.text}" for part in start.hypothesis.parts)
 
 
 def _pairs(study: Study, notice: Notice, known: list[Law] | None, singles: list[Fit]) -> list[Fit]:
@@ -156,7 +156,7 @@ def _pairs(study: Study, notice: Notice, known: list[Law] | None, singles: list[
     tried = []
     for _ in range(_ROUNDS):
         tried.append(where(first))
-        notice(f"a second law beside {first.hypothesis.law.title}, {first.hypothesis.place.site.text}")
+        notice(f"a second law beside {first.hypothesis.law.title}, {first.hypothesis.parts[0].site.text}")
         found += _beside(study, notice, known, first, found)
         if not found or adequate(min(found, key=innovation)):
             break

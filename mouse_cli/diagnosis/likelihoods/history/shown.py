@@ -40,7 +40,7 @@ def once(found: list[Fit], dropped: dict[str, str]) -> list[Fit]:
         if limited and plain.get(tuple(_seen(one)), -np.inf) >= one.log_evidence - ODDS:
             part = limited[0]
             size = part.unknowns[part.law.limit[0]].name
-            dropped[part.law.key] = f"{part.place.site.text}: no record reaches its {size}, and a plainer law is what it is below"
+            dropped[part.law.key] = f"{part.site.text}: no record reaches its {size}, and a plainer law is what it is below"
         else:
             kept.append(one)
     return kept
@@ -79,13 +79,13 @@ def hidden(one: Fit, horizon_s: float) -> tuple[str, str] | None:
         frequency = next((v for u, v in zip(part.unknowns, p[:, 0], strict=True) if u.unit == "Hz"), np.inf)
         if frequency * horizon_s < 1:
             slow = f"its period, {1 / frequency:.3g} s, is longer than the stretch of {horizon_s:.3g} s it is judged on"
-            return part.law.key, f"{part.place.site.text}: {slow}"
+            return part.law.key, f"{part.site.text}: {slow}"
         for size, value in zip(part.unknowns, p[:, 0], strict=True):
             reach = _END * np.log(size.upper / size.lower)
             low = size.unit != "1" and np.log(value / size.lower) < reach
             if low or np.log(size.upper / value) < reach:
                 return (
                     part.law.key,
-                    f"{part.place.site.text}: its {size.name} ends at the limit of its range",
+                    f"{part.site.text}: its {size.name} ends at the limit of its range",
                 )
     return None
