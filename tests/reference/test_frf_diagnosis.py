@@ -205,3 +205,13 @@ test:
     found = damping(reduced(problem, problem.prior.mean))
     assert found.stated == pytest.approx(0.02)
     assert np.isfinite(found.mean).all()
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_step_that_goes_too_far_is_no_model_and_no_warning(control):
+    model, x = model_of(control, None)
+    for far in (1e6, 1e200):
+        there = x.copy()
+        there[model.of_deck : model.k] = far
+        assert model.point(there) is None
+    assert model.point(x) is not None

@@ -100,8 +100,9 @@ class FrfModel:
                     rows[:, places[self.base.r :]] = recipe.carried.read(sensing, names, held)
         return found[0], found[1]
 
+    @np.errstate(all="ignore")  # of a step that goes too far
     def point(self, x: np.ndarray) -> FrfPoint | None:
-        """The model at x (k + t,); None where it is not physical."""
+        """The model at x (k + t,); None where it is not physical, or no longer a number."""
         z, _, _, errs, c = self.split(x)
         own = np.concatenate([z, c])
         solved = self.elastic.solved(own)
@@ -118,7 +119,7 @@ class FrfModel:
         residual = [b.stacked(b.H - part.H) for b, part in zip(blocks, parts, strict=True)]
         residual += [modal.residual - self._erring(modal) @ errs] if modal else []
         residual = np.concatenate(residual)
-        return FrfPoint(x, eigenvalues, X, residual, parts, modal) if np.isfinite(residual).all() else None
+        return FrfPoint(x, eigenvalues, X, residual, parts, modal) if np.isfinite(residual @ residual) else None
 
     def curvature(self, at: FrfPoint) -> float:
         """0: of FRFs products of slopes are all of the Hessian that is known."""
