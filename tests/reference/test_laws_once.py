@@ -8,6 +8,7 @@ import pytest
 
 from mouse_cli.diagnosis.likelihoods.history.shown import once
 from mouse_cli.terms.laws import registry
+from mouse_cli.updating.recordings.acting import Part
 
 
 @dataclass
@@ -23,7 +24,7 @@ class Found:
     def recipes(self):
         law, place = registry()[self.law], SimpleNamespace(site=SimpleNamespace(text=self.site), where=self.site)
         unknowns = tuple(SimpleNamespace(name=name) for name in ("stiffness before slip", "slip force")[: len(self.sd)])
-        return (SimpleNamespace(law=law, place=place, unknowns=unknowns),)
+        return (Part(place, law, 0, unknowns),)
 
     @property
     def groups(self):
