@@ -1,18 +1,20 @@
 """What an answer stands or falls with, in sentences: accuracy of the test, held-out data, the place that shapes point to."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from math import erfc, sqrt
 
 import numpy as np
 
+from mouse_cli.diagnosis.effects.element_sets import text
 from mouse_cli.diagnosis.gates import GATE
 from mouse_cli.diagnosis.likelihoods.modal.accuracy import scatter
 from mouse_cli.diagnosis.likelihoods.modal.scales import span
 from mouse_cli.diagnosis.search.grounded import one_tie
 from mouse_cli.diagnosis.search.rank import NOISY, Ranking
 from mouse_cli.diagnosis.verdict import Verdict, shifts
-from mouse_cli.model.diagnosis import NAMED, NOTHING, RIVAL, Location
+from mouse_cli.model.diagnosis import NAMED, NOTHING, RIVAL, Location, Site
 from mouse_cli.model.groups import enumerated
+from mouse_cli.model.held import ElementGroup
 from mouse_cli.updating.chi_square import upper_tail
 
 _PROBABLE = 0.5  # of errors of the test from which on they are the finding
@@ -128,11 +130,11 @@ def _elsewhere(verdict: Verdict, location: Location | None) -> Iterator[str]:
     )
 
 
-def on_set(one, other, groups) -> bool:
+def on_set(one: Site, other: Site, groups: Iterable[ElementGroup]) -> bool:
     """Whether a cause of an element set acts at another site: a degree of freedom of a node of its elements."""
-    nodes = next((group.nodes for group in groups if one.text == f"element set {group.name}"), ())
-    digits = str(other.ids[0]).rstrip("TRXYZ") if other.ids else ""
-    return digits.isdigit() and int(digits) in nodes
+    nodes = next((group.nodes for group in groups if one.text == text(group)), ())
+    node = str(other.ids[0]).rstrip("TRXYZ") if other.ids else ""
+    return node.isdigit() and int(node) in nodes
 
 
 def _near(one, other, best) -> bool:

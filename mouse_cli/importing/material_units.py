@@ -5,11 +5,9 @@ from collections.abc import Iterable, Iterator
 from mouse_cli._errors import WARNING, Diagnostic
 from mouse_cli._span import Span
 from mouse_cli.importing.model import InputModel, Material
+from mouse_cli.model.units import KILOGRAM, SYSTEMS
 
-_PER_UNIT = {  # of pressure in Pa, and of density in kg/m3; the more common systems first
-    "SI": (1.0, 1.0), "mm-t-N": (1e6, 1e12), "in-lbf": (6894.757, 1.068689e7), "m-t-kN": (1e3, 1e3),
-    "mm-kg-mN": (1e3, 1e9), "ft-lbf": (47.88026, 515.3788),
-}  # fmt: skip
+_COMMON = ("SI", "mm-t-N", "in-lbf", "m-t-kN", "mm-kg-mN", "ft-lbf")  # systems, the more common first
 _STIFF, _HEAVY = (1e5, 2e12), (1.0, 25_000.0)  # Pa, kg/m3: from soft foam to diamond, and to osmium
 _SOUND = (10.0, 14_000.0)  # m/s, sqrt(E / rho), of rubber and of beryllium or stiff carbon fibres
 _FOAM, _SLOW = 25.0, 1500.0  # kg/m3 below which a solid is a foam; m/s, faster than any foam
@@ -25,7 +23,7 @@ def units_of(materials: Iterable[tuple[float, float]]) -> str:
     ('', 'SI')
     """
     used = list(materials)
-    count = {name: sum(_solid(name, *each) for each in used) for name in _PER_UNIT}
+    count = {name: sum(_solid(name, *each) for each in used) for name in _COMMON}
     best = max(count, key=lambda name: count[name])
     return best if count[best] > len(used) / 2 else ""
 
@@ -34,7 +32,7 @@ def told(model: InputModel, given: str | None) -> tuple[str, list[Diagnostic]]:
     """The system of a job, `given` or by its materials, and warnings: which one, and materials that are none in it."""
     used = {group.material.name: group.material for group in model.groups if group.material is not None}
     named = given or units_of((m.E, m.rho) for m in used.values())
-    found = [] if named else list(_strange(used.values(), "any one system of units", _PER_UNIT))
+    found = [] if named else list(_strange(used.values(), "any one system of units", _COMMON))
     if named:
         found = list(_strange(used.values(), named, (named,)))
     if not given:
@@ -56,8 +54,8 @@ def _strange(used: Iterable[Material], of: str, names: Iterable[str]) -> Iterato
 
 def _solid(system: str, E: float, rho: float) -> bool:
     """Whether a solid can have these constants in a system."""
-    pressure, density = _PER_UNIT[system]
-    stiff, heavy = E * pressure, rho * density
+    units = SYSTEMS[system]
+    stiff, heavy = (each / KILOGRAM[units.mass] / units.metre**power for each, power in ((E, 1), (rho, 3)))
     if not (_STIFF[0] <= stiff <= _STIFF[1] and _HEAVY[0] <= heavy <= _HEAVY[1]):
         return False
     sound = (stiff / heavy) ** 0.5

@@ -1,6 +1,5 @@
 """Named element sets of imported matrices that lose, or gain, stiffness or mass as a whole."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -65,14 +64,10 @@ def heavier(model: Reduced, candidate) -> list[Recipe]:
     return [_weighed(candidate, *each, len(found), _HEAVIER, MASS_GAINED, 1) for each in found]
 
 
-def point_masses(model: Reduced) -> list[tuple[int, Callable[..., Recipe]]]:
-    """Sets that are a mass at one node: that node, and a recipe for more of it, of a prior probability."""
+def heavier_points(model: Reduced, candidate) -> dict[int, Recipe]:
+    """The same of each set that is a mass at one node, by that node; their prior is that of masses there."""
     found = [(group, M) for group, K, M in _sets(model) if M is not None and _is_point(group, K)]
-
-    def recipe(group: ElementGroup, M: _Part) -> Callable[..., Recipe]:
-        return lambda candidate, share: _weighed(candidate, group, M, 1 / share, _HEAVIER, MASS_GAINED, 1)
-
-    return [(group.nodes[0], recipe(group, M)) for group, M in found]
+    return {group.nodes[0]: _weighed(candidate, group, M, 1, _HEAVIER, MASS_GAINED, 1) for group, M in found}
 
 
 def _is_point(group: ElementGroup, K: _Part | None) -> bool:
@@ -128,14 +123,14 @@ def _remade(candidate, group: ElementGroup, K: _Part, M: _Part, count: int) -> R
     )
 
 
-def _weighed(candidate, group: ElementGroup, M: _Part, count: float, share: Unknown, name: str, sign: int) -> Recipe:
+def _weighed(candidate, group: ElementGroup, M: _Part, count: int, share: Unknown, name: str, sign: int) -> Recipe:
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         return with_entries(problem, new_parameter(name.format(group.name), values[0], "1"), M=M.entries(sign))
 
     return _recipe(candidate, share, group, count, (np.zeros_like(M.own), M.own), sign, extend)
 
 
-def _recipe(candidate, share: Unknown, group: ElementGroup, count: float, of: tuple, sign: int, extend) -> Recipe:
+def _recipe(candidate, share: Unknown, group: ElementGroup, count: int, of: tuple, sign: int, extend) -> Recipe:
     """of: K and M (r, r) that are added, times `sign`, for a share of 1."""
     K, M = of
     site = Site("dof", (), None, text(group))

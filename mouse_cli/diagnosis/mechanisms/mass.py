@@ -1,9 +1,11 @@
 """A mass at one place of the structure."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown
-from mouse_cli.diagnosis.effects.element_sets import point_masses
+from mouse_cli.diagnosis.effects.element_sets import heavier_points
 from mouse_cli.diagnosis.extend.points import with_mass
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import BODY, total_mass
@@ -18,12 +20,12 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     total = total_mass(model)
     m = Unknown("mass", "kg", *(BODY * total))
     change = lambda sizes, B: Change(M=sizes[0] * B.T @ B)
-    points, known = all_motions(model), dict(point_masses(model))
+    points, known = all_motions(model), heavier_points(model, candidate)
     node = [None if point.unknown else point.site(np.zeros(0)).ids[0] for point in points]
-    own = {n: point.share for n, point in zip(node, points, strict=True) if n in known}
+    share = dict.fromkeys(known, 1 / max(len(points), 1))
+    share |= {n: point.share for n, point in zip(node, points, strict=True) if n in known}
     free = [point for n, point in zip(node, points, strict=True) if n not in known]
-    share = 1 / max(len(points), 1)
-    more = [recipe(candidate, own.get(n, share)) for n, recipe in known.items()]
+    more = [replace(recipe, log_prior=float(np.log(share[n]))) for n, recipe in known.items()]
     return sized(candidate, free, m, _STARTS, change, with_mass) + more
 
 

@@ -89,7 +89,7 @@ def _explained(own: Study, some: list[tuple[int, int]]) -> Fit | None:
     """The linear model fitted to some stretches alone; None where it leaves more than noise of them."""
     alone = copy(own)
     starts = [[part.starts[g] for j, g in some if j == i] for i, part in enumerate(own.data)]
-    alone.data = [replace(part, starts=np.array(own)) for part, own in zip(own.data, starts, strict=True) if own]
+    alone.data = [replace(part, starts=np.array(at)) for part, at in zip(own.data, starts, strict=True) if at]
     found = fitted(alone, None)
     return found if found is not None and close(found) else None
 

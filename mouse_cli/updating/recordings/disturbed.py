@@ -11,7 +11,7 @@ import numpy as np
 from mouse_cli.updating.recordings.adequacy import adequate
 from mouse_cli.updating.recordings.disturbance import Disturbance
 from mouse_cli.updating.recordings.fit import Fit
-from mouse_cli.updating.recordings.study import Study, fitted
+from mouse_cli.updating.recordings.study import Study, fitted, resonances
 
 _MAINS = (50.0, 60.0, 50.0 / 3)  # Hz: the grids, and railways of central Europe
 _SLOW = 0.25  # of the lowest mode, below which a structure follows its force without a resonance
@@ -41,18 +41,10 @@ def _likely(own: Study, baseline: Fit) -> list[Disturbance]:
     share = lambda lines: float(power[lines].sum() / power.sum())
     mains = [(share(np.abs(hz - one) <= _BESIDE * hz[1]), one) for one in _MAINS if one < 0.4 / dt]
     best, hum = max(mains, default=(0.0, 0.0))
-    slow = _SLOW * _lowest(own)
+    slow = _SLOW * float(resonances(own.model)[0])
     hums, drifts = best > _SHARE, share(hz < max(slow, _BESIDE * hz[1])) > _SHARE
     found = [(hum, 0.0)] * hums + [(0.0, slow)] * drifts + [(hum, slow)] * (hums and drifts)
     return [Disturbance(a, b) for a, b in found]
-
-
-def _lowest(own: Study) -> float:
-    """The lowest natural frequency of the model, Hz."""
-    from scipy.linalg import eigh
-
-    value = eigh(own.model.linear.K, own.model.linear.M, eigvals_only=True)[0]
-    return float(np.sqrt(max(value, 0.0)) / (2 * np.pi))
 
 
 def _said(each: Disturbance) -> str:

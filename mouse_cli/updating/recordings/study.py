@@ -113,7 +113,7 @@ def study(problem: Problem, found: Records, of: Modelled = uncertain) -> Study:
     first = found.fitted[0]
     lowest, high = _occupied(first)
     model = of(problem, *_needed(problem, first, high))
-    hz = _resonances(model)
+    hz = resonances(model)
     flexible = hz[hz > 1e-3 * max(hz.max(), lowest)]
     slowest, highest = (flexible.min(), flexible.max()) if len(flexible) else (2 * lowest, high)
     low = min(lowest, 0.5 * float(slowest))
@@ -176,7 +176,8 @@ def _needed(problem: Problem, first: Series, high: float) -> tuple[float, np.nda
     return min(_ABOVE * high, _BEYOND / first.dt), np.unique(np.hstack([loads, first.sensing.T]), axis=1)
 
 
-def _resonances(model: Uncertain) -> np.ndarray:
+def resonances(model: Uncertain) -> np.ndarray:
+    """Natural frequencies (n,) of the model as it is, in Hz, ascending."""
     from scipy.linalg import eigh
 
     values = eigh(model.linear.K, model.linear.M, eigvals_only=True)
