@@ -10,6 +10,7 @@ from mouse_cli.dynamics.krylov import Krylov
 RIGID = 1e-6  # |lambda| up to this share of the first measured eigenvalue is a rigid-body mode
 _ROUNDED = 1e-13  # shares of the largest eigenvalue: no more than rounding
 _LOW = 1e-6  # that share, of a mode that has lost digits to rounding
+_PIVOT = 4 * np.finfo(float).eps  # by the order of M, share of a mass up to which its pivot is rounding: the motion has none
 _MASSLESS = 1e-13  # eigenvalues of M up to this share of the largest are no mass
 
 
@@ -73,6 +74,8 @@ def _by_masses(K: np.ndarray, M: np.ndarray) -> EigenSolution:
     try:
         L = np.linalg.cholesky(M)
     except np.linalg.LinAlgError:
+        return _condensed(K, M)
+    if (L.diagonal() ** 2 <= _PIVOT * len(M) * masses).any():
         return _condensed(K, M)
     reduced = np.linalg.solve(L, np.linalg.solve(L, K).T)
     eigenvalues, vectors = np.linalg.eigh((reduced + reduced.T) / 2)
