@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mouse_cli.updating.recordings.continuity import gained
 from mouse_cli.updating.recordings.fit import Fit
 from mouse_cli.updating.recordings.hypothesis import Hypothesis
 from mouse_cli.updating.recordings.linear import rigid
@@ -182,13 +183,13 @@ class Polish:
 
     @np.errstate(over="ignore", invalid="ignore")
     def _normal(self, slopes: Slopes, at: _At, damping: float):
-        """Normal equations with the initial states eliminated: matrix, right side, and what gives the states back.
+        """Normal equations with the initial states eliminated: matrix, right side, what gives states back, and their precisions.
 
         A parameter that the data do not feel is held by the width of its range.
         """
         P0 = 1 / self.h.sd**2
         H, g = np.diag(P0 + 2 * np.pi / self.h.width**2), -P0 * (at.x - self.h.mean)
-        backs, logs = [], 0.0
+        backs, precisions = [], []
         for j in range(at.states.shape[1]):
             r, J, X = (
                 at.left[:, :, j].ravel(),
@@ -197,14 +198,14 @@ class Polish:
             )
             S0 = 1 / self.spread**2
             XX = X.T @ X + np.diag(S0)
-            logs += np.linalg.slogdet(XX * np.outer(self.spread, self.spread))[1]
+            precisions.append(XX)
             XX = XX + damping * np.diag(np.diag(XX))
             XJ, Xr = X.T @ J, X.T @ r - S0 * at.states[:, j]
             solved = np.linalg.solve(XX, np.column_stack([XJ, Xr]))
             H = H + J.T @ J - XJ.T @ solved[:, :-1]
             g = g + J.T @ r - XJ.T @ solved[:, -1]
             backs.append(solved)
-        return H, g, backs, logs
+        return H, g, backs, precisions
 
     def _step(self, slopes: Slopes, at: _At, damping: float):
         H, g, backs, _ = self._normal(slopes, at, damping)
@@ -235,10 +236,12 @@ class Polish:
         return own.columns(t, self.series.dt) * s * G if own else 0
 
     def _fit(self, slopes: Slopes, at: _At) -> Fit:
-        H, _, _, logs = self._normal(slopes, at, 0.0)
+        H, _, _, precisions = self._normal(slopes, at, 0.0)
+        logs = sum(np.linalg.slogdet(one * np.outer(self.spread, self.spread))[1] for one in precisions)
         width = self.h.width
         own = np.isfinite(width)
         evidence = -at.cost / 2 - np.log(width[own] / np.sqrt(2 * np.pi)).sum() - (np.linalg.slogdet(H)[1] + logs) / 2
+        evidence += gained(self.simulator, at.x, at.states, self.spread, precisions)
         misfit = float((at.left**2).sum())
         dof = passed() * at.left.size - len(at.x) - at.states.size - self._lost(*at.left.shape)
         covariance, as_read = np.linalg.inv(H), self.series.repeated.coloured(at.left)
