@@ -10,7 +10,7 @@ from mouse_cli.updating.recordings.regression import Start
 from mouse_cli.updating.recordings.study import Study
 
 POLISHED, _AGAIN = 4, 8  # starts that are fitted in any case; of the nearest law again
-_ELSEWHERE = 4  # places at which a law that comes near is tried besides
+_ELSEWHERE = 4  # places at which a law that comes near is tried besides, and laws at its place
 _ALIKE = 6  # starts that are fitted although an adequate law was found, as they are like it
 
 
@@ -33,6 +33,12 @@ def elsewhere(order: list[Start], tried: list[Start], law: str) -> list[Start]:
     """Starts of a law at places where it was not tried yet, the most promising ones."""
     gone = set(map(where, tried))
     return [one for one in order if one.hypothesis.law.key == law and where(one) not in gone][:_ELSEWHERE]
+
+
+def others_there(order: list[Start], tried: list[Start], place: str) -> list[Start]:
+    """Starts of laws that were not tried yet at a place, the most promising ones."""
+    gone = set(map(where, tried))
+    return [one for one in order if where(one)[1] == place and where(one) not in gone][:_ELSEWHERE]
 
 
 def where(one: Start | Fit) -> tuple[str, str]:
