@@ -38,15 +38,16 @@ class Damping:
         """eta, alpha, beta, zeta and the factors (c,) of modes at u (4 + c,), prior standard deviations from the mean."""
         return np.exp(self.mean + self.sd * np.clip(u, -_FAR, _FAR))
 
-    def of_modes(self, s: np.ndarray, eigenvalues: np.ndarray, u: np.ndarray) -> np.ndarray:
-        """What damping adds to Z of each mode: its share of each unknown (4 + c, f, size), the kinds first, at s (f,)."""
+    def of_modes(self, s: np.ndarray, eigenvalues: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """What damping adds to Z of each mode, by kinds: factors (4, n) of modes, and (4, f) of lines, at s (f,); products are
+        added.
+        """
         eta, alpha, beta, zeta, *factors = self.values(u)
-        root, s = np.sqrt(np.maximum(eigenvalues, 0.0)), s[:, None]
         of_mode = np.ones(len(eigenvalues))
         of_mode[: len(factors)] = factors
-        one = np.ones(len(eigenvalues))
-        kinds = [1j * eta * eigenvalues + 0 * s, s * alpha * one, s * beta * eigenvalues, 2 * s * zeta * root]
-        return np.stack(kinds) * of_mode
+        root = np.sqrt(np.maximum(eigenvalues, 0.0))
+        of_modes = of_mode * np.stack([eigenvalues, np.ones(len(root)), eigenvalues, root])
+        return of_modes, np.stack([np.full_like(s, 1j * eta), s * alpha, s * beta, 2 * s * zeta])
 
     def unevenly(self) -> "Damping":
         """The same where each mode has damping of its own beside it."""

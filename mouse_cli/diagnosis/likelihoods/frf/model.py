@@ -1,14 +1,15 @@
 """A reduced model with causes and their losses: its frequency response functions at x, and their derivatives.
 
 With the modes X of the structure and its causes, all elastic, Z_0 = diag(lambda (1 + d (i eta + s beta)) + s d (alpha + 2 zeta
-lambda^1/2)) + s^2, d of each mode, is diagonal, and other losses are of low rank: Z = Z_0 + G' W(s) G. Then
+lambda^1/2)) + s^2, d of each mode, is diagonal, and other losses are of low rank: Z = Z_0 + G' W(s) G, see `receptance`. Then
 
-    H = s^k S Z^-1 B',   Z^-1 = Z_0^-1 - Z_0^-1 G' (I + W G Z_0^-1 G')^-1 W G Z_0^-1,   dH = s^k (dS Z^-1 - S Z^-1 dZ Z^-1) B'
+    H = s^k S Z^-1 B',   dH = s^k (dS Z^-1 - S Z^-1 dZ Z^-1) B'
 
-(Sherman, Morrison and Woodbury; lecture 21 for the derivative). Modes that were measured beside the functions add their residual:
+(lecture 21). Modes that were measured beside the functions add their residual:
 both belong to one structure, whose theory errs alike in both.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import chain
 
@@ -18,6 +19,7 @@ from mouse_cli.diagnosis.effects.change import Recipe
 from mouse_cli.diagnosis.likelihoods.frf.damping import Damping
 from mouse_cli.diagnosis.likelihoods.frf.gains import gains
 from mouse_cli.diagnosis.likelihoods.frf.losses import Losses
+from mouse_cli.diagnosis.likelihoods.frf.receptance import Receptance, times
 from mouse_cli.diagnosis.likelihoods.modal.growing import growing
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.point import Left, Point
@@ -48,13 +50,12 @@ class FrfPoint(Left):
 
 @dataclass(frozen=True)
 class Functions:
-    """left (n, o, size) = S Z^-1 and right (n, size, i) = Z^-1 B' in modes, factor (n, o, i): at the nodes of the lines.
+    """Z^-1 in modes, and by what H is more than S Z^-1 B', factor (n, o, i): at the nodes of the lines.
 
     H (f, o, i): as measured, gains and leakage in it.
     """
 
-    left: np.ndarray
-    right: np.ndarray
+    receptance: Receptance
     H: np.ndarray
     factor: np.ndarray
 
@@ -137,17 +138,12 @@ class FrfModel:
         """Functions of block i; sensing (s, size): what causes add to what the sensors of the test read."""
         block, (S, B), (z, own, u, _, c) = self.base.data.blocks[i], self._ends[i], self.split(x)
         s, S = block.nodes, S + self._sensors[i] @ sensing
-        flat = 1 / (eigenvalues + (s**2)[:, None] + self.damping.of_modes(s, eigenvalues, own).sum(axis=0))
-        left, right = (S @ X)[None] * flat[:, None], (flat[:, :, None] * (B @ X).T[None])
+        of_modes, of_lines = self.damping.of_modes(s, eigenvalues, own)
+        flat = 1 / (eigenvalues[:, None] + s**2 + of_modes.T @ of_lines)
         G, W = self.losses.local(s, z, own, c)
-        if len(G):
-            rows = G @ X
-            carried = rows[None] * flat[:, None]  # G Z_0^-1 (f, c, size)
-            core = np.linalg.solve(np.eye(len(G)) + W @ (carried @ rows.T), W)
-            right = right - np.swapaxes(carried, 1, 2) @ (core @ (rows @ right))
-            left = left - (left @ rows.T) @ core @ carried
+        receptance = Receptance(S @ X, B @ X, G @ X, flat, W)
         factor = block.factor * self.gains.factor(i, u)
-        return Functions(left, right, block.expected(factor * ((S @ X) @ right)), factor)
+        return Functions(receptance, block.expected(factor * receptance.H), factor)
 
     def parts(self, at: FrfPoint) -> list:
         """None that pairs modes, see `Model.parts`."""
@@ -166,41 +162,42 @@ class FrfModel:
     def _moved(self, i: int, at: FrfPoint) -> np.ndarray:
         """dH/dx (f, o, i, k + t) of block i."""
         part, block = at.parts[i], self.base.data.blocks[i]
-        s = block.nodes
-        _, own, _, errs, _ = self.split(at.x)
-        g = self.losses.of_structure(s, own)
-        left, right = part.left @ at.X.T, at.X @ part.right  # in the coordinates of the model
-        K, M, S = self._slopes(at)
-        elastic = g[:, None, None, None] * _between(left, K, right) + (s**2)[:, None, None, None] * _between(
-            left, M, right
-        )
-        elastic -= np.einsum("pos,fsi->foip", self._sensors[i] @ S, right)
-        damping = self._damped(part, s, at.eigenvalues, own)
-        found = np.concatenate([elastic[..., : self.of_deck], damping, elastic[..., self.of_deck :]], axis=-1)
-        for j, slope in self._of_losses(i, at.x, left, right):
+        elastic, (damped, erring) = self._of_matrices(i, at), self._damped(i, at)
+        found = np.concatenate([elastic[..., : self.of_deck], damped, elastic[..., self.of_deck :], erring], axis=-1)
+        for j, slope in self._of_losses(i, at):
             found[..., j - (self.k - self.lossy) * (j >= self.k)] += slope
-        c = len(errs)
-        own = part.left[:, :, None, :c] * np.swapaxes(part.right[:, :c], 1, 2)[:, None]  # (f, o, i, c)
-        own = g[:, None, None, None] * own * (2 * self.theory * at.eigenvalues[:c])
-        factor = part.factor[..., None]
-        return np.concatenate(
-            [
-                block.expected(-factor * found[..., : self.lossy]),
-                self.gains.slopes(i, part.H),
-                block.expected(-factor * own),
-                block.expected(-factor * found[..., self.lossy :]),
-            ],
-            axis=-1,
-        )
+        found = block.expected(-part.factor[..., None] * found)
+        first, causes, erring = np.split(found, [self.lossy, self.lossy + self.t], axis=-1)
+        return np.concatenate([first, self.gains.slopes(i, part.H), erring, causes], axis=-1)
 
-    def _damped(self, part: "Functions", s: np.ndarray, eigenvalues: np.ndarray, own: np.ndarray) -> np.ndarray:
-        """S Z^-1 dZ Z^-1 B' (f, o, i, d) by the unknowns of the damping."""
-        kinds = self.damping.of_modes(s, eigenvalues, own)
-        found = [part.left @ (each[:, :, None] * part.right) for each in kinds]
-        whole = kinds.sum(axis=0)
-        for r in range(len(own) - len(kinds)):
-            found.append(part.left[:, :, r : r + 1] * (whole[:, r, None] * part.right[:, r])[:, None])
-        return np.stack(found, axis=-1) * self.damping.sd
+    def _of_matrices(self, i: int, at: FrfPoint) -> np.ndarray:
+        """S Z^-1 dZ Z^-1 B' - dS Z^-1 B' (f, o, i, p) by the deck's parameters, then by the causes, all elastic."""
+        receptance, s, X = at.parts[i].receptance, self.base.data.blocks[i].nodes, at.X
+        K, M, S = self._slopes(at)
+        motion, g = receptance.right, self.losses.of_structure(s, self.split(at.x)[1])
+        pushed = np.zeros((len(K), *motion.shape), complex)
+        for matrices, unit in ((K, g), (M, s**2)):
+            for j in np.flatnonzero(matrices.any(axis=(1, 2))):
+                pushed[j] += unit[:, None] * times(X.T @ matrices[j] @ X, motion)
+        found = receptance.read(np.moveaxis(pushed, 0, 1))
+        for j in np.flatnonzero(S.any(axis=(1, 2))):
+            found[:, j] -= times(self._sensors[i] @ S[j] @ X, motion)
+        return np.transpose(found, (2, 0, 3, 1))
+
+    def _damped(self, i: int, at: FrfPoint) -> tuple[np.ndarray, np.ndarray]:
+        """S Z^-1 dZ Z^-1 B' (f, o, i, d) by the unknowns of the damping, and (f, o, i, c) by what theory errs."""
+        receptance, s, (_, own, _, errs, _) = at.parts[i].receptance, self.base.data.blocks[i].nodes, self.split(at.x)
+        of_modes, of_lines = self.damping.of_modes(s, at.eigenvalues, own)
+        alike, which = np.unique(of_modes, axis=0, return_inverse=True)
+        kinds = receptance.read(alike.T[:, :, None, None] * receptance.right[:, None])  # (o, a, f, i)
+        uneven, c = len(own) - len(of_modes), len(errs)
+        each = receptance.left(max(uneven, c))[..., None] * receptance.right[: max(uneven, c)]  # (o, c, f, i)
+        whole = of_modes[:, :uneven].T @ of_lines
+        damped = np.concatenate([kinds[:, which.ravel()] * of_lines[:, :, None], each[:, :uneven] * whole[:, :, None]], axis=1)
+        g = self.losses.of_structure(s, own)[:, None]
+        erring = each[:, :c] * g * (2 * self.theory * at.eigenvalues[:c])[:, None, None]
+        damped, erring = (np.transpose(found, (2, 0, 3, 1)) for found in (damped, erring))
+        return damped * self.damping.sd, erring
 
     def _slopes(self, at: FrfPoint) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """dK, dM (p, size, size) and d(sensing) (p, s, size) by the deck's parameters, then by the causes, all elastic."""
@@ -224,19 +221,23 @@ class FrfModel:
             K[j] += softer
         return K, M, S
 
-    def _of_losses(self, i: int, x: np.ndarray, left: np.ndarray, right: np.ndarray):
+    def _of_losses(self, i: int, at: FrfPoint) -> Iterator[tuple[int, np.ndarray]]:
         """j and S Z^-1 d(G' W G)/dx_j Z^-1 B' (f, o, i), by differences, of every x_j that the losses follow."""
-        s, (z, own, _, _, c) = self.base.data.blocks[i].nodes, self.split(x)
-        if not len(self.losses.local(s[:1], z, own, c)[0]):
+        s, receptance, (_, _, _, _, c) = self.base.data.blocks[i].nodes, at.parts[i].receptance, self.split(at.x)
+        if not len(receptance.rows):
             return
+        ends: dict[bytes, tuple[np.ndarray, np.ndarray]] = {}
         for j in chain(self.losses.followed(self.of_deck, c), range(self.k, self.k + self.t)):
             slope = 0.0
-            for place, weight in self._stencil(x, j):
-                there = x.copy()
+            for place, weight in self._stencil(at.x, j):
+                there = at.x.copy()
                 there[j] = place
                 z, own, _, _, c = self.split(there)
                 G, W = self.losses.local(s, z, own, c)
-                slope = slope + weight * ((left @ G.T) @ W @ (G @ right))
+                if (key := G.tobytes()) not in ends:
+                    ends[key] = receptance.across(G @ at.X)
+                left, right = ends[key]
+                slope = slope + weight * (left @ W @ right)
             yield j, slope
 
     def _stencil(self, x: np.ndarray, j: int) -> list[tuple[float, float]]:
@@ -244,19 +245,6 @@ class FrfModel:
         if j >= self.k:
             return self.elastic.slope(x[self.k :], j - self.k)
         return [(x[j] + _STEP, 0.5 / _STEP), (x[j] - _STEP, -0.5 / _STEP)]
-
-
-def _between(left: np.ndarray, matrices: np.ndarray, right: np.ndarray) -> np.ndarray:
-    """left (f, o, n) matrices (p, n, n) right (f, n, i): (f, o, i, p); matrices of zeros cost nothing."""
-    lines, n, i = right.shape
-    found = np.zeros((lines, left.shape[1], i, len(matrices)), complex)
-    there = np.flatnonzero(matrices.any(axis=(1, 2)))
-    if len(there):
-        motion = np.ascontiguousarray(np.moveaxis(right, 1, 0)).reshape(n, -1).view(float)  # (n, f i 2)
-        forces = (matrices[there].reshape(-1, n) @ motion).view(complex).reshape(len(there), n, lines, i)
-        forces = np.ascontiguousarray(np.transpose(forces, (2, 1, 3, 0))).reshape(lines, n, -1)
-        found[..., there] = (left @ forces).reshape(lines, -1, i, len(there))
-    return found
 
 
 def _same(rows: np.ndarray, sensing: np.ndarray) -> np.ndarray:
