@@ -12,7 +12,7 @@ from mouse_cli.diagnosis.likelihoods.frf.compared import compared
 from mouse_cli.diagnosis.likelihoods.frf.compared import remarks as of_windows
 from mouse_cli.diagnosis.likelihoods.frf.deck import with_damping
 from mouse_cli.diagnosis.likelihoods.frf.identified import with_modes
-from mouse_cli.diagnosis.likelihoods.frf.rank import ranked_by_frf
+from mouse_cli.diagnosis.likelihoods.frf.rank import ByFunctions
 from mouse_cli.diagnosis.likelihoods.history.diagnose import diagnose_records
 from mouse_cli.diagnosis.likelihoods.history.rank import ByRecordings
 from mouse_cli.diagnosis.names import by_records
@@ -33,7 +33,7 @@ class Measured:
     def __init__(self, given: Problem):
         self.given = given
         self.problem, self.doubts = (given, ()) if by_records(given) else with_modes(given)
-        self._by_recordings = ByRecordings()
+        self._by_functions, self._by_recordings = ByFunctions(), ByRecordings()
 
     def of(self, do: Callable[[Problem], Problem]) -> "Measured":
         """The same data of what `do` makes of the deck."""
@@ -49,7 +49,7 @@ class Measured:
 
     def ranked(self, by_modes: Ranking) -> Ranking:
         """A ranking by modes, by FRFs and recordings too."""
-        return self._by_recordings(ranked_by_frf(by_modes, self.modes))
+        return self._by_recordings(self._by_functions(by_modes, self.modes))
 
     def laws(self, notice: Notice, choices: Choices) -> Diagnosis | None:
         """What recordings say of laws of forces: of a deck of these alone, or where `ranked` found that they ask for

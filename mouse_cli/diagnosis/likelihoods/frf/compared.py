@@ -88,7 +88,7 @@ def of_functions(one: Fit) -> Fit:
 def _by_modes(one: Fit, tests: Tests) -> Fit:
     """A fit of modes with what functions need besides, as it is held likely: damping of the structure, gains."""
     own, data = one.model.k, FrfData(tuple(lines(test, one.model.base.problem.theory) for test in tests))
-    model = FrfModel(replace(one.model.base, data=data), damping(one.model.base), one.recipes)
+    model = FrfModel(one.model.base.judged_by(data), damping(one.model.base), one.recipes)
     x, hessian = np.insert(one.point.x, own, np.zeros(model.k - own)), np.eye(model.k + model.t)
     elastic = np.r_[0:own, model.k : model.k + model.t]
     hessian[np.ix_(elastic, elastic)] = one.hessian
@@ -136,7 +136,7 @@ def _over(one: Fit, tests: Tests, at: slice) -> FrfModel:
         s, shape = test.laplace[at], test.H[at].shape
         blocks.append(Lines(test, s, np.zeros(shape), np.ones(shape), np.ones(shape, bool), of_window(test, s)))
     data = replace(one.model.base.data, blocks=tuple(blocks), modes=None)
-    model = FrfModel(replace(one.model.base, data=data), one.model.damping, one.recipes)
+    model = FrfModel(one.model.base.judged_by(data), one.model.damping, one.recipes)
     model.losses.middle = one.model.losses.middle  # which loss factors of viscous springs belong to
     return model
 

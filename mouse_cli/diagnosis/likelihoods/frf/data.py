@@ -58,10 +58,11 @@ class Lines(AtNodes):
         H, sd = (np.where(seen.have, each, other) for each, other in ((seen.H, 0.0), (seen.sd, 1.0)))
         return replace(self, s=seen.s, H=H, sd=sd, has=seen.have, leakage=None)
 
-    def stacked(self, H: np.ndarray) -> np.ndarray:
-        """Real and imaginary parts (2 q, ...) of what was measured of H (f, o, i, ...), over their standard deviations."""
-        whitened = H[self.has] / self.sd[self.has].reshape(-1, *[1] * (H.ndim - 3))
-        return np.concatenate([whitened.real, whitened.imag])
+    def whitened(self, H: np.ndarray) -> np.ndarray:
+        """Real and imaginary parts (..., 2 q) of what was measured of H (..., f, o, i), over their standard deviations."""
+        measured, sd = (H, self.sd) if self.has.all() else (H[..., self.has], self.sd[self.has])
+        measured = measured.reshape(*H.shape[:-3], sd.size)
+        return np.concatenate([measured.real / sd.ravel(), measured.imag / sd.ravel()], axis=-1)
 
 
 def lines(test: FrfTest, theory: Theory) -> Lines:

@@ -1,6 +1,9 @@
 """FRFs of a test as they judge explanations: each fitted from where modes left it, by few lines or by all, with laws of damping."""
 
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -14,6 +17,7 @@ from mouse_cli.diagnosis.likelihoods.frf.model import FrfModel
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.search.fit import MOST, Fit, fit
 from mouse_cli.diagnosis.search.optima import within
+from mouse_cli.updating.frf_start import WIDTHS
 
 _PLACES, _KEPT = 5, 2  # places from which what only damps begins, and how many of its kind go on
 THIN, BRIEF = 4, 12  # in a first look: every so manieth line, and steps
@@ -25,11 +29,13 @@ class Judge:
     """FRFs of a test and the damping of the structure as it is held likely.
 
     known (m,): sd of ln f of modes measured beside them by what theory leaves of both; None: the modes are those of the functions.
+    What was fitted once is kept, and not fitted again in a later ranking.
     """
 
     data: FrfData
     damping: Damping
     known: np.ndarray | None = None
+    _kept: dict[tuple, tuple[Fit, float, Any]] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def windowed(self, name: str) -> "Judge | None":
         """By functions of blocks of that window, where a deck states none, and no decay rate; None where it states all."""
@@ -37,15 +43,16 @@ class Judge:
         same = all(new is old for new, old in zip(blocks, self.data.blocks, strict=True))
         return None if same else replace(self, data=replace(self.data, blocks=blocks))
 
+    @cached_property
     def thinned(self) -> "Judge":
         """By few lines."""
         return replace(self, data=replace(self.data, blocks=tuple(block.every(THIN) for block in self.data.blocks)))
 
-    def broadened(self, width: float) -> "Judge":
-        """By functions with broader resonances."""
-        return replace(
-            self, data=replace(self.data, blocks=tuple(block.broadened(width) for block in self.data.blocks))
-        )
+    @cached_property
+    def broadened(self) -> "tuple[Judge, ...]":
+        """By functions with broader resonances, ever narrower ones."""
+        blocks = (tuple(block.broadened(width) for block in self.data.blocks) for width in WIDTHS[1:])
+        return tuple(replace(self, data=replace(self.data, blocks=each)) for each in blocks)
 
     def model(self, base: Reduced, recipes: tuple = ()) -> FrfModel:
         """The reduced model `base` with causes, as the FRFs see it, and the modes that were measured beside them."""
@@ -56,7 +63,7 @@ class Judge:
             modes = None
         else:
             modes = modes.sharpened(self.known)
-        return FrfModel(replace(base, data=replace(self.data, modes=modes)), self.damping, recipes)
+        return FrfModel(base.judged_by(replace(self.data, modes=modes)), self.damping, recipes)
 
     def fitted(
         self, one: Fit, law: str = SAME, most: int = MOST, damping: Damping | None = None, reach: float = np.inf
@@ -65,6 +72,18 @@ class Judge:
 
         damping: of the structure; None: as `one` has it, of modes as it is held likely. reach: misfit above which no fit matters.
         """
+        key = id(one), law, most, None if damping is None else tuple(damping.sd)
+        return self.once(key, one, reach, lambda: self._fitted(one, law, most, damping, reach))
+
+    def once(self, key: tuple, one: Fit, reach: float, do: Callable[[], Any]) -> Any:
+        """What `do` finds of `one`, which is kept beside it, so that no id is used again; anew where it was given up too early."""
+        before = self._kept.get(key)
+        if before is None or (reach > before[1] and not _ended(before[2], before[1])):
+            before = self._kept[key] = one, reach, do()
+        return before[2]
+
+    def _fitted(self, one: Fit, law: str, most: int, damping: Damping | None, reach: float) -> Fit | None:
+        """The same, whatever is kept."""
         recipes = tuple(lossy(recipe, law, self.data.middle) for recipe in one.recipes)
         own = replace(self, damping=damping or getattr(one.model, "damping", self.damping))
         model = own.model(one.model.base, recipes)
@@ -116,6 +135,9 @@ class Judge:
 
     def damped(self, one: Fit, base: Reduced, reach: float) -> list[Fit]:
         """The same of what only damps, beside the causes of `one`, a fit of FRFs; base: its model with its modes."""
+        return self.once((id(one),), one, reach, lambda: self._damped(one, base, reach))
+
+    def _damped(self, one: Fit, base: Reduced, reach: float) -> list[Fit]:
         found = []
         for recipes in (dashpots(base), lossy_parts(base, self.data.middle)):
             recipes = [replace(recipe, number=i) for i, recipe in enumerate(recipes)]
@@ -129,17 +151,24 @@ class Judge:
         The damping of the structure is as it is held likely: `one` has made that of the cause.
         """
         x, tried = one.point.x.copy(), []
+        elastic = np.concatenate([x[: one.model.of_deck], one.c])  # which nothing that only damps changes
+        solved = one.model.elastic.solved(elastic)
         x[one.model.of_deck : one.model.lossy] = 0.0
         for recipe in recipes:
             trial = self.model(one.model.base, (*one.recipes, recipe))
             places: dict[bytes, tuple] = {}
             for values in recipe.grid:
-                at = trial.point(np.concatenate([x, recipe.coordinates(values)]))
+                at = trial.point(np.concatenate([x, recipe.coordinates(values)]), solved)
                 place = values[1:].tobytes()
                 if at is not None and (place not in places or at.chi2 < places[place][0]):
                     places[place] = at.chi2, trial, at.x
             tried += places.values()
         return [(trial, x) for _, trial, x in sorted(tried, key=lambda item: item[0])[:_PLACES]]
+
+
+def _ended(found: Fit | list[Fit] | None, reach: float) -> bool:
+    """Whether fits that were given up where they cannot come as low as `reach` came to their end."""
+    return found is None or (isinstance(found, Fit) and found.misfit <= reach)
 
 
 def _alike(one: Fit, other: Fit) -> bool:

@@ -31,6 +31,6 @@ def of_mesh(one: Fit, base: Reduced) -> float:
     if there is None:
         return 0.0
     blocks = tuple(replace(block, H=part.H) for block, part in zip(data.blocks, there.parts, strict=True))
-    model = FrfModel(replace(one.model.base, data=replace(data, blocks=blocks)), one.model.damping)
+    model = FrfModel(one.model.base.judged_by(replace(data, blocks=blocks)), one.model.damping)
     again = fit(model, np.zeros(0), one.point.x)
     return 0.0 if again is None else again.point.chi2

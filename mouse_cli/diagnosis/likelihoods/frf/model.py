@@ -10,7 +10,7 @@ both belong to one structure, whose theory errs alike in both.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import chain
 
 import numpy as np
@@ -29,6 +29,8 @@ from mouse_cli.dynamics.sensing import read
 from mouse_cli.model.frf_test import FrfTest
 
 _STEP = 1e-5  # of a range, for derivatives of losses
+
+Solved = tuple[np.ndarray, np.ndarray, np.ndarray]  # eigenvalues, shapes, and what causes add to sensors, see `Model.solved`
 
 
 @dataclass(frozen=True)
@@ -69,7 +71,7 @@ class FrfModel:
     def __init__(self, base: Reduced, damping: Damping, recipes: tuple[Recipe, ...] = (), middle: float | None = None):
         """base.data: FrfData; middle: omega_0, rad/s, of viscous losses; None: the middle of the band."""
         self.base, self.damping, self.recipes = base, damping, recipes
-        self.elastic, self.modes = Model(replace(base, data=base.data.modes), recipes), base.data.modes
+        self.elastic, self.modes = Model(base.judged_by(base.data.modes), recipes), base.data.modes
         self.gains = gains(tuple(block.test for block in base.data.blocks))
         self.losses = Losses(self.elastic, damping, base.data.middle if middle is None else middle)
         self.of_deck, self.lossy = base.L.shape[1], base.L.shape[1] + len(damping.mean)
@@ -102,11 +104,11 @@ class FrfModel:
         return found[0], found[1]
 
     @np.errstate(all="ignore")  # of a step that goes too far
-    def point(self, x: np.ndarray) -> FrfPoint | None:
-        """The model at x (k + t,); None where it is not physical, or no longer a number."""
+    def point(self, x: np.ndarray, solved: Solved | None = None) -> FrfPoint | None:
+        """The model at x (k + t,); None where it is not physical, or no longer a number. solved: its elastic part, if known."""
         z, _, _, errs, c = self.split(x)
         own = np.concatenate([z, c])
-        solved = self.elastic.solved(own)
+        solved = solved or self.elastic.solved(own)
         if solved is None:
             return None
         eigenvalues, X, sensing = solved
@@ -117,7 +119,7 @@ class FrfModel:
         eigenvalues[: len(errs)] *= np.exp(2 * self.theory * errs)
         parts = tuple(self._functions(i, x, eigenvalues, X, sensing) for i in range(len(self._ends)))
         blocks = self.base.data.blocks
-        residual = [b.stacked(b.H - part.H) for b, part in zip(blocks, parts, strict=True)]
+        residual = [b.whitened(b.H - part.H) for b, part in zip(blocks, parts, strict=True)]
         residual += [modal.residual - self._erring(modal) @ errs] if modal else []
         residual = np.concatenate(residual)
         return FrfPoint(x, eigenvalues, X, residual, parts, modal) if np.isfinite(residual @ residual) else None
@@ -151,53 +153,59 @@ class FrfModel:
 
     def jacobian(self, at: FrfPoint) -> np.ndarray:
         """d(prediction)/dx (2 q, k + t), whitened."""
-        rows = [b.stacked(self._moved(i, at)) for i, b in enumerate(self.base.data.blocks)]
+        columns = [b.whitened(self._moved(i, at)) for i, b in enumerate(self.base.data.blocks)]
         if at.modal:
-            found = np.zeros((len(at.modal.residual), len(at.x)))
-            found[:, np.r_[: self.of_deck, self.k : len(at.x)]] = self.elastic.jacobian(at.modal)
-            found[:, self.measured : self.k] = self._erring(at.modal)
-            rows.append(found)
-        return np.concatenate(rows)
+            found = np.zeros((len(at.x), len(at.modal.residual)))
+            found[np.r_[: self.of_deck, self.k : len(at.x)]] = self.elastic.jacobian(at.modal).T
+            found[self.measured : self.k] = self._erring(at.modal).T
+            columns.append(found)
+        return np.concatenate(columns, axis=1).T
 
     def _moved(self, i: int, at: FrfPoint) -> np.ndarray:
-        """dH/dx (f, o, i, k + t) of block i."""
+        """dH/dx (k + t, f, o, i) of block i."""
         part, block = at.parts[i], self.base.data.blocks[i]
-        elastic, (damped, erring) = self._of_matrices(i, at), self._damped(i, at)
-        found = np.concatenate([elastic[..., : self.of_deck], damped, elastic[..., self.of_deck :], erring], axis=-1)
+        found = np.empty((len(at.x), *part.factor.shape), complex)
+        of_deck, damped, gains, errs, causes = np.split(found, [self.of_deck, self.lossy, self.measured, self.k])
+        self._by_matrices(i, at, of_deck, causes)
+        self._by_damping(i, at, damped, errs)
+        gains[:] = 0.0
         for j, slope in self._of_losses(i, at):
-            found[..., j - (self.k - self.lossy) * (j >= self.k)] += slope
-        found = block.expected(-part.factor[..., None] * found)
-        first, causes, erring = np.split(found, [self.lossy, self.lossy + self.t], axis=-1)
-        return np.concatenate([first, self.gains.slopes(i, part.H), erring, causes], axis=-1)
+            found[j] += slope
+        found *= -part.factor
+        found = block.expected(np.moveaxis(found, 1, 0)).swapaxes(0, 1) if block.leakage else found
+        found[self.lossy : self.measured] = np.moveaxis(self.gains.slopes(i, part.H), -1, 0)
+        return found
 
-    def _of_matrices(self, i: int, at: FrfPoint) -> np.ndarray:
-        """S Z^-1 dZ Z^-1 B' - dS Z^-1 B' (f, o, i, p) by the deck's parameters, then by the causes, all elastic."""
+    def _by_matrices(self, i: int, at: FrfPoint, of_deck: np.ndarray, causes: np.ndarray) -> None:
+        """S Z^-1 dZ Z^-1 B' - dS Z^-1 B' into (., f, o, i) by the deck's parameters and by the causes, all elastic."""
         receptance, s, X = at.parts[i].receptance, self.base.data.blocks[i].nodes, at.X
         K, M, S = self._slopes(at)
         motion, g = receptance.right, self.losses.of_structure(s, self.split(at.x)[1])
-        pushed = np.zeros((len(K), *motion.shape), complex)
+        pushed = np.zeros((len(motion), len(K), *motion.shape[1:]), complex)
         for matrices, unit in ((K, g), (M, s**2)):
             for j in np.flatnonzero(matrices.any(axis=(1, 2))):
-                pushed[j] += unit[:, None] * times(X.T @ matrices[j] @ X, motion)
-        found = receptance.read(np.moveaxis(pushed, 0, 1))
+                pushed[:, j] += unit[:, None] * times(X.T @ matrices[j] @ X, motion)
+        found = receptance.read(pushed)
         for j in np.flatnonzero(S.any(axis=(1, 2))):
             found[:, j] -= times(self._sensors[i] @ S[j] @ X, motion)
-        return np.transpose(found, (2, 0, 3, 1))
+        of_deck[:], causes[:] = np.split(np.moveaxis(found, 0, 2), [self.of_deck])
 
-    def _damped(self, i: int, at: FrfPoint) -> tuple[np.ndarray, np.ndarray]:
-        """S Z^-1 dZ Z^-1 B' (f, o, i, d) by the unknowns of the damping, and (f, o, i, c) by what theory errs."""
-        receptance, s, (_, own, _, errs, _) = at.parts[i].receptance, self.base.data.blocks[i].nodes, self.split(at.x)
+    def _by_damping(self, i: int, at: FrfPoint, damped: np.ndarray, erring: np.ndarray) -> None:
+        """S Z^-1 dZ Z^-1 B' into (., f, o, i) by the unknowns of the damping, and by what theory errs."""
+        receptance, s, (_, own, _, _, _) = at.parts[i].receptance, self.base.data.blocks[i].nodes, self.split(at.x)
         of_modes, of_lines = self.damping.of_modes(s, at.eigenvalues, own)
+        sd, kinds, c = self.damping.sd, len(of_modes), len(erring)
+        uneven = len(sd) - kinds if sd[kinds:].any() else 0
         alike, which = np.unique(of_modes, axis=0, return_inverse=True)
-        kinds = receptance.read(alike.T[:, :, None, None] * receptance.right[:, None])  # (o, a, f, i)
-        uneven, c = len(own) - len(of_modes), len(errs)
-        each = receptance.left(max(uneven, c))[..., None] * receptance.right[: max(uneven, c)]  # (o, c, f, i)
-        whole = of_modes[:, :uneven].T @ of_lines
-        damped = np.concatenate([kinds[:, which.ravel()] * of_lines[:, :, None], each[:, :uneven] * whole[:, :, None]], axis=1)
-        g = self.losses.of_structure(s, own)[:, None]
-        erring = each[:, :c] * g * (2 * self.theory * at.eigenvalues[:c])[:, None, None]
-        damped, erring = (np.transpose(found, (2, 0, 3, 1)) for found in (damped, erring))
-        return damped * self.damping.sd, erring
+        read = receptance.read(alike.T[:, :, None, None] * receptance.right[:, None])  # (o, a, f, i)
+        damped[:kinds] = (sd[:kinds, None] * of_lines)[:, :, None, None] * np.moveaxis(read, 0, 2)[which.ravel()]
+        each = receptance.left(max(uneven, c))[..., None] * receptance.right[: max(uneven, c)]
+        each = np.moveaxis(each, 0, 2)  # (c, f, o, i)
+        whole = sd[kinds : kinds + uneven, None] * (of_modes[:, :uneven].T @ of_lines)
+        damped[kinds:] = 0.0
+        damped[kinds : kinds + uneven] = whole[:, :, None, None] * each[:uneven]
+        by = self.losses.of_structure(s, own) * (2 * self.theory * at.eigenvalues[:c])[:, None]
+        erring[:] = by[:, :, None, None] * each[:c]
 
     def _slopes(self, at: FrfPoint) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """dK, dM (p, size, size) and d(sensing) (p, s, size) by the deck's parameters, then by the causes, all elastic."""

@@ -17,6 +17,7 @@ from mouse_cli.diagnosis.likelihoods.frf.lossy import GROUPS, LAWS
 from mouse_cli.diagnosis.likelihoods.frf.mesh import of_mesh
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.noise import log_density
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.moves import adequate
@@ -24,13 +25,11 @@ from mouse_cli.diagnosis.search.optima import distinct, within
 from mouse_cli.diagnosis.search.rank import Ranking, ranking
 from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.updating.chi_square import upper_tail
-from mouse_cli.updating.frf_start import WIDTHS
 
 _REACH = 60.0  # nats by which modes may speak against an explanation that is judged by FRFs still
 _SINGLES = 3  # single causes that are judged in any case
 # Other places at which modes leave a cause possible: so many whatever they say, and so many of at least this share
 _ELSEWHERE, _PLACES, _SHARE = 2, 6, 1e-3
-_WIDTHS = WIDTHS[1:]  # damping ratios by which resonances are broadened
 _UNSTATED = ("hann", "uniform")  # windows that are tried where a deck states none
 _PLAIN = 10.0  # nats that one must gain
 _WEIGHED = 3  # times that accuracies nobody stated are taken from what is left
@@ -58,22 +57,43 @@ class FitWithModes(Fit):
         return self.frf.model.base.data.assumed and upper_tail(float(z @ z), max(len(z), 1)) < GATE
 
 
-def ranked_by_frf(modal: Ranking, measured: bool) -> Ranking:
-    """The ranking `modal` by modes, ranked again by the FRFs of the test; `modal` itself where there are none.
+class ByFunctions:
+    """What FRFs make of rankings of one deck; a fit that was judged once is not fitted again."""
 
-    measured: the modes were measured beside the FRFs, and both judge; else the FRFs showed them, and judge alone.
-    """
-    base = modal.baseline.model.base
-    if not base.problem.frf:
-        return modal
-    blocks = tuple(lines(test, base.problem.theory) for test in base.problem.frf)
-    theory = _theory(modal.baseline)
-    judge = Judge(FrfData(blocks, theory), damping(base, len(theory)), base.data.theory if measured else None)
-    fits = _searched(judge, modal)
-    if not fits:
-        return modal
-    if not any(map(adequate, fits)) and (leaking := _leaking(judge, fits)):
-        judge, fits = leaking, _searched(leaking, modal) or fits
+    def __init__(self) -> None:
+        self._own: tuple[Fit, Judge] | None = None
+
+    def __call__(self, modal: Ranking, measured: bool) -> Ranking:
+        """The ranking `modal` by modes, ranked again by the FRFs of the test; `modal` itself where there are none.
+
+        measured: the modes were measured beside the FRFs, and both judge; else the FRFs showed them, and judge alone.
+        """
+        base = modal.baseline.model.base
+        if not base.problem.frf:
+            return modal
+        judge = self._judge(modal.baseline, measured)
+        fits = _searched(judge, modal)
+        if not fits:
+            return modal
+        if not any(map(adequate, fits)) and (leaking := _leaking(judge, fits)):
+            judge, fits = leaking, _searched(leaking, modal) or fits
+        fits = _shared(_together(_weighed(judge, fits)))
+        fits[0] = _without_mesh(fits[0], base)
+        found = ranking(fits[0], fits)
+        views = {id(one): _beside_modes(one, base.data) for one in fits}
+        return replace(found, baseline=views[id(fits[0])], fits=tuple(views[id(one)] for one in found.fits))
+
+    def _judge(self, baseline: Fit, measured: bool) -> Judge:
+        """The FRFs beside `baseline`, the fit without a cause of the modes; with what they judged of it before."""
+        if self._own is None or self._own[0] is not baseline:
+            base, theory = baseline.model.base, _theory(baseline)
+            data = FrfData(tuple(lines(test, base.problem.theory) for test in base.problem.frf), theory)
+            self._own = baseline, Judge(data, damping(base, len(theory)), base.data.theory if measured else None)
+        return self._own[1]
+
+
+def _weighed(judge: Judge, fits: list[Fit]) -> list[Fit]:
+    """`fits` where lines that say the same count once, and accuracies nobody stated are what is left."""
     alike = None
     for _ in range(_WEIGHED):
         nearest = min(fits, key=lambda one: one.misfit)
@@ -82,11 +102,7 @@ def ranked_by_frf(modal: Ranking, measured: bool) -> Ranking:
         alike = correlated(nearest) if alike is None else 1.0
         judge = replace(judge, data=judge.data.reweighted(alike, _scatter(nearest)))
         fits = judge.all_of(fits)
-    fits = _shared(_together(fits))
-    fits[0] = _without_mesh(fits[0], base)
-    found = ranking(fits[0], fits)
-    views = {id(one): _beside_modes(one, base.data) for one in fits}
-    return replace(found, baseline=views[id(fits[0])], fits=tuple(views[id(one)] for one in found.fits))
+    return fits
 
 
 def _without_mesh(none: Fit, base: Reduced) -> Fit:
@@ -104,7 +120,7 @@ def _searched(judge: Judge, modal: Ranking) -> list[Fit]:
 
     None where the model without a cause is not physical.
     """
-    quick, stages = judge.thinned(), tuple(judge.broadened(width) for width in _WIDTHS)
+    quick, stages = judge.thinned, judge.broadened
     begun = quick.near(modal.baseline, stages)
     none = None if begun is None else quick.fitted(begun)
     if none is None:
@@ -147,7 +163,7 @@ def _looked(
     look(starts, stages)
     looked += [] if once else quick.damped(none, modal.baseline.model.base, within([none, *looked]))
     if quick.known is not None or not any(map(adequate, looked)):
-        look(anew(stages[0], modal), stages[1:])
+        look(stages[0].once(("anew", *_known(modal)), modal.baseline, np.inf, lambda: anew(stages[0], modal)), stages[1:])
     return looked
 
 
@@ -170,7 +186,7 @@ def anew(judge: Judge, modal: Ranking) -> list[Fit]:
     judge: by these.
     """
     base, found = modal.baseline.model.base, []
-    known = {one.recipes[0].candidate.key: one.recipes[0].candidate for one in modal.fits if len(one.recipes) == 1}
+    known = _known(modal)
     study, k = Study(Study(base).coarse.model, known, judge.model), judge.model(base).k
     study.k = k
     for name in known:
@@ -180,6 +196,11 @@ def anew(judge: Judge, modal: Ranking) -> list[Fit]:
         for number, x in list(first.items())[:_ELSEWHERE]:
             found.append(fit(judge.model(base, (recipes[number],)), x[k:], x[:k], BRIEF))
     return [one for one in found if one is not None]
+
+
+def _known(modal: Ranking) -> dict[str, Candidate]:
+    """Candidates that explain the modes as single mechanisms, by key."""
+    return {one.recipes[0].candidate.key: one.recipes[0].candidate for one in modal.fits if len(one.recipes) == 1}
 
 
 def _theory(one: Fit) -> np.ndarray:
@@ -256,7 +277,7 @@ def _laws(one: Fit) -> int:
 def _beside_modes(one: Fit, data) -> Fit:
     """The fit `one` of FRFs with the model of modes at its parameters; one itself where modes have none there."""
     own, k = one.model.of_deck, one.model.k
-    model = Model(replace(one.model.base, data=data), one.recipes)
+    model = Model(one.model.base.judged_by(data), one.recipes)
     elastic = np.r_[0:own, k : k + one.model.t]
     at = model.point(one.point.x[elastic])
     if at is None:

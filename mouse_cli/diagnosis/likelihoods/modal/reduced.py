@@ -6,6 +6,7 @@ derivatives of the measured modes by the parameters.
 """
 
 from collections.abc import Callable, Hashable
+from copy import copy
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -237,8 +238,10 @@ class Reduced:
         return self
 
     def judged_by(self, data: Data) -> "Reduced":
-        """The same model for the same test at other accuracies."""
-        return replace(self, data=data)
+        """The same model for other data of the same structure; what it computed when asked is known there too."""
+        same = copy(self)
+        object.__setattr__(same, "data", data)
+        return same
 
     def at(self, theta: np.ndarray) -> "Reduced":
         """The same model at other values theta (p,) of its parameters; a large one in the same coordinates and places."""
