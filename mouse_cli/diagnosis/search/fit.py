@@ -134,10 +134,10 @@ def fit(
     model: Model, c: np.ndarray, z: np.ndarray | None = None, most: int = MOST, reach: float = np.inf
 ) -> Fit | None:
     """The most probable x, weighed; see `descended`."""
-    end = descended(model, c, z, most, reach)
+    end, H = _lowered(model, c, z, most, reach)
     if end is None:
         return None
-    H, _ = normal(model, end.point)
+    H = normal(model, end.point)[0] if H is None else H
     return Fit(model, end.point, end.misfit, H, _evidence(end.misfit, H, model) - end.point.nats)
 
 
@@ -149,15 +149,20 @@ def descended(
     most: steps; reach: a misfit above which no fit matters: the search is given up where it will not come so low, neither by what
     a full step promises nor by going on to gain as it did. Far from an optimum the first alone says little.
     """
-    k = model.k
+    return _lowered(model, c, z, most, reach)[0]
+
+
+def _lowered(model: Model, c: np.ndarray, z: np.ndarray | None, most: int, reach: float) -> tuple[End | None, np.ndarray | None]:
+    """See `descended`; and H, see `normal`, of where it ended if that is known."""
+    k, known = model.k, None
     lower, upper = np.hstack([np.full((2, k), [[-np.inf], [np.inf]]), model.bounds.T])
     at = model.point(np.clip(np.concatenate([model.base.z if z is None else z, c]), lower, upper))
     if at is None:
-        return None
+        return None, None
     damping, scale, gained = 1e-3, np.concatenate([np.ones(k), 1 / model.width**2]), np.inf
     for step_number in range(most):
-        J, (H, slope) = cost_at(at, k), normal(model, at)
-        H = H + model.curvature(at)
+        J, (known, slope) = cost_at(at, k), normal(model, at)
+        H = known + model.curvature(at)
         step = lambda damped, H=H, slope=slope, x=at.x: _step(H, slope, damped, scale, x, lower, upper)
         hope = min(_AHEAD, most - step_number) * gained if step_number >= min(_LEAST, most // 3) else np.inf
         full = float(slope @ step(1e-6))
@@ -166,10 +171,10 @@ def descended(
         there, damping = _lower(model, at, H, slope, step, damping, (lower, upper))
         if there is None:
             break
-        gained, at = J - cost_at(there, k), there
+        gained, at, known = J - cost_at(there, k), there, None
         if gained < _small(J - gained):
             break
-    return End(model, at, cost_at(at, k))
+    return End(model, at, cost_at(at, k)), known
 
 
 def _lower(model: Model, at: Point, H, slope, step, damping: float, limits: tuple) -> tuple[Point | None, float]:

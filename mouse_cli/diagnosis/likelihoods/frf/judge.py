@@ -15,7 +15,7 @@ from mouse_cli.diagnosis.likelihoods.frf.lossy import GROUPS, LAWS, LOSS, SAME, 
 from mouse_cli.diagnosis.likelihoods.frf.lossy_parts import lossy_parts
 from mouse_cli.diagnosis.likelihoods.frf.model import FrfModel
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
-from mouse_cli.diagnosis.search.fit import MOST, Fit, fit
+from mouse_cli.diagnosis.search.fit import MOST, End, Fit, descended, fit
 from mouse_cli.diagnosis.search.optima import within
 from mouse_cli.updating.frf_start import WIDTHS
 
@@ -35,7 +35,7 @@ class Judge:
     data: FrfData
     damping: Damping
     known: np.ndarray | None = None
-    _kept: dict[tuple, tuple[Fit, float, Any]] = field(default_factory=dict, init=False, repr=False, compare=False)
+    _kept: dict[tuple, tuple[End, float, Any]] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def windowed(self, name: str) -> "Judge | None":
         """By functions of blocks of that window, where a deck states none, and no decay rate; None where it states all."""
@@ -66,7 +66,7 @@ class Judge:
         return FrfModel(base.judged_by(replace(self.data, modes=modes)), self.damping, recipes)
 
     def fitted(
-        self, one: Fit, law: str = SAME, most: int = MOST, damping: Damping | None = None, reach: float = np.inf
+        self, one: End, law: str = SAME, most: int = MOST, damping: Damping | None = None, reach: float = np.inf
     ) -> Fit | None:
         """The explanation `one` of modes, or of FRFs, fitted from where it is; law: of its springs, where they have none yet.
 
@@ -75,22 +75,26 @@ class Judge:
         key = id(one), law, most, None if damping is None else tuple(damping.sd)
         return self.once(key, one, reach, lambda: self._fitted(one, law, most, damping, reach))
 
-    def once(self, key: tuple, one: Fit, reach: float, do: Callable[[], Any]) -> Any:
+    def once(self, key: tuple, one: End, reach: float, do: Callable[[], Any]) -> Any:
         """What `do` finds of `one`, which is kept beside it, so that no id is used again; anew where it was given up too early."""
         before = self._kept.get(key)
         if before is None or (reach > before[1] and not _ended(before[2], before[1])):
             before = self._kept[key] = one, reach, do()
         return before[2]
 
-    def _fitted(self, one: Fit, law: str, most: int, damping: Damping | None, reach: float) -> Fit | None:
+    def _fitted(self, one: End, law: str, most: int, damping: Damping | None, reach: float) -> Fit | None:
         """The same, whatever is kept."""
+        return fit(*self._begun(one, law, damping), most, reach)
+
+    def _begun(self, one: End, law: str = SAME, damping: Damping | None = None) -> tuple[FrfModel, np.ndarray, np.ndarray]:
+        """The model of an explanation, and where a fit of it begins: coordinates of the causes, and the others."""
         recipes = tuple(lossy(recipe, law, self.data.middle) for recipe in one.recipes)
         own = replace(self, damping=damping or getattr(one.model, "damping", self.damping))
         model = own.model(one.model.base, recipes)
         parts = zip(one.recipes, recipes, one.model.own, strict=True)
         c = [np.append(one.c[own], [np.log(LOSS)] * (len(r.unknowns) - len(was.unknowns))) for was, r, own in parts]
         start = np.concatenate([one.point.x[: one.model.k], model.start[one.model.k :]])
-        return fit(model, np.concatenate([np.zeros(0), *c]), start, most, reach)
+        return model, np.concatenate([np.zeros(0), *c]), start
 
     def all_of(self, fits: list[Fit]) -> list[Fit]:
         """Each fitted to the end from where it is, but for those after the first that come nowhere near the best."""
@@ -119,15 +123,19 @@ class Judge:
             found.append(replace(likelier, log_evidence=total))
         return found
 
-    def near(self, one: Fit, stages: "tuple[Judge, ...]") -> Fit | None:
+    def near(self, one: End, stages: "tuple[Judge, ...]") -> End | None:
         """`one` where its resonances are near the measured ones: as it is, or fitted with ever narrower resonances, `stages`."""
+        return self.once((id(one), len(stages)), one, np.inf, lambda: self._near(one, stages))
+
+    def _near(self, one: End, stages: "tuple[Judge, ...]") -> End | None:
+        """The same, whatever is kept."""
         end = one
         for stage in stages:
-            end = stage.fitted(end, most=BRIEF // 2) or end
-        starts = [at for at in (self.fitted(one, most=0), self.fitted(end, most=0)) if at is not None]
+            end = descended(*stage._begun(end), BRIEF // 2) or end
+        starts = [at for each in (one, end) if (at := descended(*self._begun(each), 0)) is not None]
         return min(starts, key=lambda at: at.misfit, default=None)
 
-    def laws(self, one: Fit, reach: float) -> list[Fit]:
+    def laws(self, one: End, reach: float) -> list[Fit]:
         """A first look at the explanation `one` under each law of damping that its springs may follow; reach: as in `fitted`."""
         may = any(recipe.candidate.group in GROUPS for recipe in one.recipes)
         found = [self.fitted(one, law, BRIEF, reach=reach) for law in (LAWS if may else (SAME,))]
@@ -135,7 +143,7 @@ class Judge:
 
     def damped(self, one: Fit, base: Reduced, reach: float) -> list[Fit]:
         """The same of what only damps, beside the causes of `one`, a fit of FRFs; base: its model with its modes."""
-        return self.once((id(one),), one, reach, lambda: self._damped(one, base, reach))
+        return self.once((id(one), "damped"), one, reach, lambda: self._damped(one, base, reach))
 
     def _damped(self, one: Fit, base: Reduced, reach: float) -> list[Fit]:
         found = []

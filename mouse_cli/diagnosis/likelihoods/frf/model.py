@@ -10,6 +10,7 @@ both belong to one structure, whose theory errs alike in both.
 """
 
 from collections.abc import Iterator
+from copy import copy
 from dataclasses import dataclass
 from itertools import chain
 
@@ -164,21 +165,22 @@ class FrfModel:
     def _moved(self, i: int, at: FrfPoint) -> np.ndarray:
         """dH/dx (k + t, f, o, i) of block i."""
         part, block = at.parts[i], self.base.data.blocks[i]
+        receptance = copy(part.receptance)  # what slopes alone ask for is not kept
         found = np.empty((len(at.x), *part.factor.shape), complex)
         of_deck, damped, gains, errs, causes = np.split(found, [self.of_deck, self.lossy, self.measured, self.k])
-        self._by_matrices(i, at, of_deck, causes)
-        self._by_damping(i, at, damped, errs)
+        self._by_matrices(i, at, receptance, of_deck, causes)
+        self._by_damping(i, at, receptance, damped, errs)
         gains[:] = 0.0
-        for j, slope in self._of_losses(i, at):
+        for j, slope in self._of_losses(i, at, receptance):
             found[j] += slope
         found *= -part.factor
         found = block.expected(np.moveaxis(found, 1, 0)).swapaxes(0, 1) if block.leakage else found
         found[self.lossy : self.measured] = np.moveaxis(self.gains.slopes(i, part.H), -1, 0)
         return found
 
-    def _by_matrices(self, i: int, at: FrfPoint, of_deck: np.ndarray, causes: np.ndarray) -> None:
+    def _by_matrices(self, i: int, at: FrfPoint, receptance: Receptance, of_deck: np.ndarray, causes: np.ndarray) -> None:
         """S Z^-1 dZ Z^-1 B' - dS Z^-1 B' into (., f, o, i) by the deck's parameters and by the causes, all elastic."""
-        receptance, s, X = at.parts[i].receptance, self.base.data.blocks[i].nodes, at.X
+        s, X = self.base.data.blocks[i].nodes, at.X
         K, M, S = self._slopes(at)
         motion, g = receptance.right, self.losses.of_structure(s, self.split(at.x)[1])
         pushed = np.zeros((len(motion), len(K), *motion.shape[1:]), complex)
@@ -190,9 +192,9 @@ class FrfModel:
             found[:, j] -= times(self._sensors[i] @ S[j] @ X, motion)
         of_deck[:], causes[:] = np.split(np.moveaxis(found, 0, 2), [self.of_deck])
 
-    def _by_damping(self, i: int, at: FrfPoint, damped: np.ndarray, erring: np.ndarray) -> None:
+    def _by_damping(self, i: int, at: FrfPoint, receptance: Receptance, damped: np.ndarray, erring: np.ndarray) -> None:
         """S Z^-1 dZ Z^-1 B' into (., f, o, i) by the unknowns of the damping, and by what theory errs."""
-        receptance, s, (_, own, _, _, _) = at.parts[i].receptance, self.base.data.blocks[i].nodes, self.split(at.x)
+        s, (_, own, _, _, _) = self.base.data.blocks[i].nodes, self.split(at.x)
         of_modes, of_lines = self.damping.of_modes(s, at.eigenvalues, own)
         sd, kinds, c = self.damping.sd, len(of_modes), len(erring)
         uneven = len(sd) - kinds if sd[kinds:].any() else 0
@@ -229,9 +231,9 @@ class FrfModel:
             K[j] += softer
         return K, M, S
 
-    def _of_losses(self, i: int, at: FrfPoint) -> Iterator[tuple[int, np.ndarray]]:
+    def _of_losses(self, i: int, at: FrfPoint, receptance: Receptance) -> Iterator[tuple[int, np.ndarray]]:
         """j and S Z^-1 d(G' W G)/dx_j Z^-1 B' (f, o, i), by differences, of every x_j that the losses follow."""
-        s, receptance, (_, _, _, _, c) = self.base.data.blocks[i].nodes, at.parts[i].receptance, self.split(at.x)
+        s, (_, _, _, _, c) = self.base.data.blocks[i].nodes, self.split(at.x)
         if not len(receptance.rows):
             return
         ends: dict[bytes, tuple[np.ndarray, np.ndarray]] = {}

@@ -19,7 +19,7 @@ from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.noise import log_density
-from mouse_cli.diagnosis.search.fit import Fit, fit
+from mouse_cli.diagnosis.search.fit import End, Fit, descended
 from mouse_cli.diagnosis.search.moves import adequate
 from mouse_cli.diagnosis.search.optima import distinct, within
 from mouse_cli.diagnosis.search.rank import Ranking, ranking
@@ -155,7 +155,7 @@ def _looked(
     """
     looked = list(once)
 
-    def look(starts: list[Fit], stages: tuple[Judge, ...]) -> None:
+    def look(starts: list[End], stages: tuple[Judge, ...]) -> None:
         for start in starts:
             one = quick.near(start, stages)
             looked.extend([] if one is None else quick.laws(one, within([none, *looked])))
@@ -180,7 +180,7 @@ def _leaking(judge: Judge, fits: list[Fit]) -> Judge | None:
     return there if adequate(one) and nearest.misfit - misfit > 2 * _PLAIN else None
 
 
-def anew(judge: Judge, modal: Ranking) -> list[Fit]:
+def anew(judge: Judge, modal: Ranking) -> list[End]:
     """Single mechanisms at places that modes did not show: where a first look by functions that are broadened finds most.
 
     judge: by these.
@@ -194,7 +194,7 @@ def anew(judge: Judge, modal: Ranking) -> list[Fit]:
         for _, number, x in study.looks(name, np.zeros(k), ()):
             first.setdefault(number, x)
         for number, x in list(first.items())[:_ELSEWHERE]:
-            found.append(fit(judge.model(base, (recipes[number],)), x[k:], x[:k], BRIEF))
+            found.append(descended(judge.model(base, (recipes[number],)), x[k:], x[:k], BRIEF))
     return [one for one in found if one is not None]
 
 
