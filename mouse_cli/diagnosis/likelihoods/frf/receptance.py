@@ -5,7 +5,8 @@ matrices for all lines; what the losses make of it is a system of as many equati
 
     Z^-1 = Z_0^-1 - Z_0^-1 G' (I + W G Z_0^-1 G')^-1 W G Z_0^-1
 
-(Sherman, Morrison and Woodbury). Responses at all coordinates are made for the forces alone, which are few, never for the sensors.
+(Sherman, Morrison and Woodbury). Responses at all coordinates are made for the forces alone, which are few, and for sensors only
+where losses have more rows than there are sensors.
 """
 
 from dataclasses import dataclass
@@ -61,8 +62,16 @@ class Receptance:
 
     def across(self, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """S Z^-1 R' (f, o, a) and R Z^-1 B' (f, a, i) of rows R (a, n)."""
+        right = np.swapaxes(times(rows, self.right), 0, 1)
+        if len(rows) > len(self.outputs):
+            return np.transpose(times(rows, self._every), (2, 1, 0)), right
         forces = np.broadcast_to(rows.T[:, None], (len(self.flat), len(self.W), len(rows)))
-        return np.swapaxes(self.read(forces), 0, 1), np.swapaxes(times(rows, self.right), 0, 1)
+        return np.swapaxes(self.read(forces), 0, 1), right
+
+    @cached_property
+    def _every(self) -> np.ndarray:
+        """S Z^-1 (n, o, f)."""
+        return np.swapaxes(self.left(len(self.flat)), 0, 1)
 
     @cached_property
     def _elastic(self) -> np.ndarray:
