@@ -11,6 +11,7 @@ from mouse_cli.model.arrays import Matrix
 _LOSS, _SPREAD = 0.01, 1.0  # loss factor of a structure whose deck states none, and sd of its logarithm
 _TRACE, _WIDE = 1e-4, 3.0  # viscous damping ratio in mid-band that may come beside it, and sd of its logarithm
 _KINDS = 4  # of damping that all modes share
+ALIKE = (0, 1, 3), (0, 1, 0, 2)  # kinds that differ from mode to mode, and as which of them each kind does
 _UNEVEN = 0.5  # sd of ln of the damping of each mode over what the kinds make of it, where modes are damped unevenly
 _FAR = 8.0  # standard deviations beyond which damping does not change
 # Of the eigenvalue of the lowest measured mode, below which a mode has no strain that would lose anything

@@ -22,6 +22,7 @@ class Losses:
     def __init__(self, model: Model, damping: Damping, middle: float):
         self.model, self.damping, self.middle = model, damping, middle
         self._factors: dict[tuple, tuple[np.ndarray, np.ndarray]] = {}
+        self._last: tuple[tuple, np.ndarray, np.ndarray] | None = None
 
     def of_structure(self, s: np.ndarray, own: np.ndarray) -> np.ndarray:
         """g (f,) of the structure, its stiffness over that without damping, for unknowns `own` of its damping."""
@@ -59,8 +60,12 @@ class Losses:
                 cores.append((springs[i] - g)[:, None, None] * np.diag(size))
         softer = [(i, change.softening) for i, change in enumerate(changes) if change.softening is not None]
         if any(self.model.recipes[i].law != SAME for i, _ in softer):
-            G, W = self._softer(softer, changes, springs, g, z)
-            rows.append(G), cores.append(W)
+            key = s.tobytes(), g.tobytes(), c.tobytes()
+            if self._last is None or self._last[0] != key:  # parameters of the deck move neither of them
+                self._last = key, *self._softer(softer, changes, springs, g)
+            _, bars, core = self._last
+            rows.append(self.model.strain[bars].reshape(-1, self.model.size))
+            cores.append(_diagonal(list(np.swapaxes(core * self.model.follow(bars, z), 0, 1))))
         return np.concatenate(rows), _diagonal(cores)
 
     def _factored(self, i: int, c: np.ndarray, name: str, change: Change) -> tuple[np.ndarray, np.ndarray]:
@@ -90,8 +95,8 @@ class Losses:
             found.append(1 + loss * (s / self.middle if recipe.law == VISCOUS else np.full_like(s, 1j)))
         return found
 
-    def _softer(self, parts: list, changes: list[Change], springs: list[np.ndarray], g: np.ndarray, z: np.ndarray):
-        """Softer bars: complex flexibilities in series, less what they are without losses of their own."""
+    def _softer(self, parts: list, changes: list[Change], springs: list[np.ndarray], g: np.ndarray):
+        """Softer bars (b,): complex flexibilities in series, less what they are without losses of their own (f, b, 3, 3)."""
         bars, at = np.unique(np.concatenate([part.bars for _, part in parts]), return_inverse=True)
         total, start = np.zeros((len(g), len(bars), 3, 3), complex), 0
         for i, part in parts:
@@ -102,8 +107,7 @@ class Losses:
         scale, left = g[:, None, None, None], residual([part for _, part in parts], bars)
         core = scale * self.model.base.bars.lost(bars, scale * total)
         core = core if left is None else effective_loss(core, left / scale)
-        W = (core - scale * self.model.softer(changes)[1]) * self.model.follow(bars, z)
-        return self.model.strain[bars].reshape(-1, self.model.size), _diagonal(list(np.swapaxes(W, 0, 1)))
+        return bars, core - scale * self.model.softer(changes)[1]
 
 
 def _diagonal(blocks: list[np.ndarray]) -> np.ndarray:

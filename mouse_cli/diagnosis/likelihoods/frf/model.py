@@ -17,7 +17,7 @@ from itertools import chain
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Recipe
-from mouse_cli.diagnosis.likelihoods.frf.damping import Damping
+from mouse_cli.diagnosis.likelihoods.frf.damping import ALIKE, Damping
 from mouse_cli.diagnosis.likelihoods.frf.gains import gains
 from mouse_cli.diagnosis.likelihoods.frf.losses import Losses
 from mouse_cli.diagnosis.likelihoods.frf.receptance import Receptance, times
@@ -198,9 +198,9 @@ class FrfModel:
         of_modes, of_lines = self.damping.of_modes(s, at.eigenvalues, own)
         sd, kinds, c = self.damping.sd, len(of_modes), len(erring)
         uneven = len(sd) - kinds if sd[kinds:].any() else 0
-        alike, which = np.unique(of_modes, axis=0, return_inverse=True)
-        read = receptance.read(alike.T[:, :, None, None] * receptance.right[:, None])  # (o, a, f, i)
-        damped[:kinds] = (sd[:kinds, None] * of_lines)[:, :, None, None] * np.moveaxis(read, 0, 2)[which.ravel()]
+        apart, alike = map(list, ALIKE)
+        read = receptance.read(of_modes[apart].T[:, :, None, None] * receptance.right[:, None])  # (o, a, f, i)
+        damped[:kinds] = (sd[:kinds, None] * of_lines)[:, :, None, None] * np.moveaxis(read, 0, 2)[alike]
         each = receptance.left(max(uneven, c))[..., None] * receptance.right[: max(uneven, c)]
         each = np.moveaxis(each, 0, 2)  # (c, f, o, i)
         whole = sd[kinds : kinds + uneven, None] * (of_modes[:, :uneven].T @ of_lines)

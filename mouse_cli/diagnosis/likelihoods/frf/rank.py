@@ -62,6 +62,7 @@ class ByFunctions:
 
     def __init__(self) -> None:
         self._own: tuple[Fit, Judge] | None = None
+        self._meshes: dict[tuple[bytes, float], float] = {}
 
     def __call__(self, modal: Ranking, measured: bool) -> Ranking:
         """The ranking `modal` by modes, ranked again by the FRFs of the test; `modal` itself where there are none.
@@ -78,7 +79,7 @@ class ByFunctions:
         if not any(map(adequate, fits)) and (leaking := _leaking(judge, fits)):
             judge, fits = leaking, _searched(leaking, modal) or fits
         fits = _shared(_together(_weighed(judge, fits)))
-        fits[0] = _without_mesh(fits[0], base)
+        fits[0] = self._without_mesh(fits[0], base)
         found = ranking(fits[0], fits)
         views = {id(one): _beside_modes(one, base.data) for one in fits}
         return replace(found, baseline=views[id(fits[0])], fits=tuple(views[id(one)] for one in found.fits))
@@ -90,6 +91,18 @@ class ByFunctions:
             data = FrfData(tuple(lines(test, base.problem.theory) for test in base.problem.frf), theory)
             self._own = baseline, Judge(data, damping(base, len(theory)), base.data.theory if measured else None)
         return self._own[1]
+
+    def _without_mesh(self, none: Fit, base: Reduced) -> Fit:
+        """The fit without a cause, as probable as if its mesh had left nothing: no cause gains more by imitating the mesh.
+
+        Where the functions are far off for other reasons that is little of what the noise would have to be.
+        """
+        key = none.point.x.tobytes(), none.misfit
+        if key not in self._meshes:
+            self._meshes[key] = of_mesh(none, base)
+        left = max(none.misfit - self._meshes[key], 0.0)
+        gained = float(log_density(left, none.dof) - log_density(none.misfit, none.dof))
+        return replace(none, log_evidence=none.log_evidence + gained)
 
 
 def _weighed(judge: Judge, fits: list[Fit]) -> list[Fit]:
@@ -103,16 +116,6 @@ def _weighed(judge: Judge, fits: list[Fit]) -> list[Fit]:
         judge = replace(judge, data=judge.data.reweighted(alike, _scatter(nearest)))
         fits = judge.all_of(fits)
     return fits
-
-
-def _without_mesh(none: Fit, base: Reduced) -> Fit:
-    """The fit without a cause, as probable as if its mesh had left nothing: no cause gains more than that by imitating the mesh.
-
-    Where the functions are far off for other reasons that is little of what the noise would have to be.
-    """
-    left = max(none.misfit - of_mesh(none, base), 0.0)
-    gained = float(log_density(left, none.dof) - log_density(none.misfit, none.dof))
-    return replace(none, log_evidence=none.log_evidence + gained)
 
 
 def _searched(judge: Judge, modal: Ranking) -> list[Fit]:
