@@ -129,15 +129,12 @@ class Reduced:
 
     def slopes(self, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """dK/dz and dM/dz (k, r, r)."""
-        by = self.rates(z)
-        shape = len(by), self.r, self.r
-        return tuple((by @ d.reshape(len(d), self.r**2)).reshape(shape) for d in (self.dK, self.dM))
+        return tuple(np.tensordot(self.rates(z), d, 1) for d in (self.dK, self.dM))
 
     def moved(self, z: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """dK/dz u and dM/dz u (k, r, m) for motion u (r, m)."""
         by = self.rates(z)
-        found = (by @ (d @ u).reshape(len(d), u.size) for d in (self.dK, self.dM))
-        return tuple(each.reshape(len(by), *u.shape) for each in found)
+        return tuple(np.tensordot(by, d @ u, 1) for d in (self.dK, self.dM))
 
     @cached_property
     def along(self) -> np.ndarray:
