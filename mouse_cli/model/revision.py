@@ -9,6 +9,7 @@ MASS_GAINED, MASS_LOST = "share of element set {} in mass, gained", "share of el
 E_TIMES, DENSITY_TIMES = "E of element set {}, over that of the deck", "density of element set {}, over that of the deck"
 STIFFNESS_LOST, STIFFNESS_GAINED = "share lost by element set {}", "share gained by element set {}"
 ON_SPRINGS = "stiffness of the support {}"
+E_OF, DENSITY_OF = "E of {}", "density of {}"  # parameters of `mouse import`, by the material
 OF_SPRING = "stiffness of {}"  # a parameter of `mouse import`: the constant of an element set of springs
 THICKNESS, TO_THE_POWER = "thickness of {}", " to the power {}"  # of shells, by their element set
 

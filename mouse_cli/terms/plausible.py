@@ -61,6 +61,12 @@ def si(units: Units) -> tuple[float, float]:
     return unit(units.force).factor / metre**2, 1.0 / KILOGRAM[units.mass] / metre**3
 
 
+def systems(units: Units) -> Iterator[tuple[str, tuple[float, float]]]:
+    """What `si` says of these units, under the name "", and of every other system of units."""
+    yield "", si(units)
+    yield from ((name, si(each)) for name, each in SYSTEMS.items() if each != units)
+
+
 def _material(s: int, members: ElementSet, units: Units) -> Iterator[Odd]:
     """Young's modulus with density that no material has, where one has them in other units."""
     if not _unknown(members, units):

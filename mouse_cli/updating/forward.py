@@ -19,7 +19,7 @@ from mouse_cli.terms.assembly import assembly as assemble
 from mouse_cli.terms.modal_damping import with_modal_damping
 from mouse_cli.updating import refusals
 from mouse_cli.updating.coordinates import Coordinates, coordinates
-from mouse_cli.updating.state import reference_eigenvalue, solve
+from mouse_cli.updating.state import solve, zero_eigenvalue
 
 _MOST = 2000  # degrees of freedom up to which all of every shape get standard deviations; beyond, the measured ones do
 
@@ -46,7 +46,7 @@ def forecast(problem: Problem, count: int | None = None, notice: Notice = lambda
     sign = np.sign(solution.shapes[np.abs(solution.shapes).argmax(axis=0), np.arange(len(solution.eigenvalues))])
     root, sd_shape = _propagated(problem, assembly, solution, K, M, modes, dofs)
     hz = solution.frequencies_hz[:k]
-    rigid = solution.rigid(reference_eigenvalue(problem, solution.eigenvalues))
+    rigid = solution.rigid(zero_eigenvalue(problem, solution, K))
     elastic = (hz > 0) & (modes >= rigid)
     root_hz = np.where(elastic[:, None], sd_frequency_hz(hz[:, None], root), 0.0)
     sd_hz = np.linalg.norm(root_hz, axis=1)

@@ -14,7 +14,7 @@ from mouse_cli.dynamics.frf_slopes import Change
 from mouse_cli.dynamics.sensitivity import EXACT, FINAL, modal_partials
 from mouse_cli.dynamics.solver import EXACT as EXACT_SHAPES
 from mouse_cli.dynamics.solver import TOLERANCE, EigenSolver
-from mouse_cli.model.arrays import Matrix
+from mouse_cli.model.arrays import Matrix, is_sparse
 from mouse_cli.model.problem import Problem
 from mouse_cli.observables.modal import ModalObservable
 from mouse_cli.terms.assembly import Assembly
@@ -24,6 +24,9 @@ from mouse_cli.updating.frf_state import FrfSetting, FrfState
 
 _ROUNDING = 1e-15  # error of an eigenvalue for each degree of freedom, as a share of the largest of all
 _UNSEEN = 1e-10  # the same where only the lowest eigenvalues are known, as a share of the largest of those
+_DIGITS = 3e-14  # error of an element of K that comes from a file of 14 digits, relative
+_CANCELLED = 1e5  # by what elements of K may have lost digits
+_APART, _BELOW = (1e-5, 1e-4), 0.1  # share of the next eigenvalue of those that are zero; and where one is below by a share of them
 
 
 @dataclass(frozen=True)
@@ -181,6 +184,21 @@ def reference_eigenvalue(problem: Problem, eigenvalues: np.ndarray) -> float:
     return float(np.abs(eigenvalues).max()) * zero / RIGID
 
 
+def zero_eigenvalue(problem: Problem, solution: EigenSolution, K: Matrix) -> float:
+    """The same of a solution of K. Without a measured one, those far below the next that digits of K leave open are zero too."""
+    found = reference_eigenvalue(problem, solution.eigenvalues)
+    if _lowest_measured(problem) is not None:
+        return found
+    squares, X = (K.multiply(K) if is_sparse(K) else K**2), solution.shapes**2
+    sd = _DIGITS * np.sqrt(np.einsum("im,im->m", X, squares @ X))
+    near = np.abs(solution.eigenvalues) <= _CANCELLED * sd
+    first = 0 if near.all() else int(np.argmin(near))
+    own, following = solution.eigenvalues[:first], float(solution.eigenvalues[first])
+    largest = float(np.abs(own).max(initial=0.0))
+    apart = _APART[bool((own < -_BELOW * largest).any())]
+    return found if largest > apart * following else max(found, largest * (1 + _UNSEEN) / RIGID)
+
+
 def _lowest_measured(problem: Problem) -> float | None:
     """Eigenvalue of the lowest measured frequency; None when there is none."""
     if problem.test is None or not np.isfinite(problem.test.frequency_hz).any():
@@ -211,7 +229,7 @@ def solve(
     except NumericalError as refused:
         raise _of_deck(problem, refused) from None
     lowest = float(solution.eigenvalues[0])
-    if lowest < -RIGID * reference_eigenvalue(problem, solution.eigenvalues):
+    if lowest < -RIGID * zero_eigenvalue(problem, solution, K):
         raise IndefiniteError(f"the stiffness matrix has the negative eigenvalue {lowest:.6g} (rad/s)^2")
     return solution
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mouse_cli import DeckError, read_deck, write_deck
+from mouse_cli import DeckError, modes, read_deck, write_deck
 from mouse_cli.dynamics.solver import eigensolution
 from mouse_cli.formats.matrix_files import read_matrix
 from mouse_cli.importing.jobs import colours
@@ -365,3 +365,19 @@ def test_a_material_of_no_section_is_a_remark_with_its_line(tmp_path):
 def test_keywords_without_effect_are_listed(tmp_path):
     model = read(written(tmp_path, BAR + "*STEP\n*FREQUENCY\n5\n*NODE FILE\nU\n*END STEP\n"))
     assert model.ignored == {"HEADING": 1, "FREQUENCY": 1, "NODE FILE": 1}
+
+
+@solver
+@pytest.mark.parametrize("kind", ["S4", "S8R"])
+def test_shells_that_nothing_holds_have_six_rigid_modes(tmp_path, kind):
+    """Digits that the mean over the thickness loses move their eigenvalues off zero, below and above."""
+    corners = ((0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1))[: 8 if kind == "S8R" else 4]
+    text = "*NODE\n" + "".join(f"{1 + x + 17 * y}, {0.05 * x}, {0.05 * y}, 0.\n" for y in range(13) for x in range(17))
+    text += f"*ELEMENT, TYPE={kind}, ELSET=PLATE\n"
+    for e, (x, y) in enumerate(((x, y) for y in range(0, 12, 2) for x in range(0, 16, 2)), 1):
+        text += f"{e}, {', '.join(str(1 + x + i + 17 * (y + j)) for i, j in corners)}\n"
+    text += "*MATERIAL, NAME=M\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850.\n*SHELL SECTION, ELSET=PLATE, MATERIAL=M\n0.003\n"
+    imports(written(tmp_path, text), tmp_path / "deck.yaml", "SI", False, str)
+    found = modes(read_deck(tmp_path / "deck.yaml"))
+    assert found.rigid_modes == 6
+    assert found.frequencies_hz[6] > 10

@@ -254,3 +254,24 @@ def test_matrices_in_declared_units_are_no_weights_in_others(short):
     deck = MATRICES.replace("model:", "units: SI\nmodel:", 1).replace(_listed(CHAIN_HZ), _listed(2 * np.pi * short * CHAIN_HZ))
     (found,) = (each for each in findings(deck) if each.code == "MD450")
     assert "rad/s" in found.message and "2 pi" in found.help and "lbf" not in f"{found.message}{found.note}"
+
+
+@pytest.mark.parametrize(
+    ("units", "E", "density", "means"),
+    [("SI", 210000.0, 7.85e-9, "mm-t-N"), ("mm-t-N", 7e10, 2700.0, "SI"), ("SI", 2.1e11, 7850.0, ""),
+     ("mm-t-N", 2.1e5, 7.85e-9, ""), ("SI", 90e6, 30.0, "")],
+)  # fmt: skip
+def test_a_deck_in_other_units_than_its_job_is_told(units, E, density, means):
+    """Steel, aluminium and a foam: their E and density by the names that an import gives to parameters."""
+    text = f"""
+mouse: 1
+units: {units}
+model:
+  stiffness: {{order: 2, entries: [[1, 1, 2], [1, 2, -1], [2, 2, 1]]}}
+  mass: {{identity: 2}}
+parameters:
+  - {{name: E of M, nominal: {E}, sd: 5 %, stiffness: [[1, 1, 1.0e-12]]}}
+  - {{name: density of M, nominal: {density}, sd: 1 %, mass: [[1, 1, 1.0e-12]]}}
+"""
+    said = [each for each in findings(text) if each.code == "MD451"]
+    assert [each.help.split(",")[0] for each in said] == ([f"write units: {means}"] if means else [])

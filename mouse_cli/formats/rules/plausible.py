@@ -4,9 +4,11 @@ import numpy as np
 
 from mouse_cli.dynamics.correlation import mac
 from mouse_cli.formats.draft import Draft, TestDraft
+from mouse_cli.model.materials import known
 from mouse_cli.model.parameter import Parameter
+from mouse_cli.model.revision import DENSITY_OF, E_OF
 from mouse_cli.terms.elements import registry
-from mouse_cli.terms.plausible import odd
+from mouse_cli.terms.plausible import odd, systems
 
 _CERTAIN = 1e-7  # sd over value, below which nothing is known so well
 _NUMBERS = (0.01, 50.0)  # what a percentage looks like that was written as a number
@@ -21,6 +23,8 @@ def plausible(draft: Draft) -> None:
     """Warn of what is odd in structure, prior and test; refuse what cannot be."""
     if draft.mesh is not None:
         _structure(draft)
+    elif draft.units.declared:
+        _materials(draft)
     for parameter in draft.parameters:
         _prior(draft, parameter)
     if draft.test is not None:
@@ -43,6 +47,25 @@ def _structure(draft: Draft) -> None:
             draft.error("MD452", message, given.element_place(s, int(wrong[0])), help=remedy)
     for each in odd(given.mesh, draft.units):
         draft.warn("MD451", each.message, given.element_place(each.set, 0), help=each.help)
+
+
+def _materials(draft: Draft) -> None:
+    """E and density of the materials of imported matrices, by the names of their parameters, in another system than the deck's."""
+    by = {parameter.name: parameter for parameter in draft.parameters}
+    for name, parameter in by.items():
+        material = name.removeprefix(E_OF.format(""))
+        other = by.get(DENSITY_OF.format(material)) if material != name else None
+        E, density = parameter.nominal, other.nominal if other is not None else 0.0
+        if other is None or not (E > 0 and density > 0):
+            continue
+        own, *rest = ((s, known(E * e, density * d, loose=s == "")) for s, (e, d) in systems(draft.units))
+        meant = [(system, solid) for system, solid in rest if solid]
+        if own[1] or not meant:
+            continue
+        said = f"{name} = {E:.6g} {draft.units.of('Pa')} and {other.name} = {density:.6g} {draft.units.of('kg/m3')}"
+        message = f"{said} are of no material; in {' or '.join(system for system, _ in meant)} they would be {meant[0][1]}"
+        help = f"write units: {meant[0][0]}, as the job is in these; or give job and deck in the units of the deck"
+        draft.warn("MD451", message, parameter.span, help=help)
 
 
 def _prior(draft: Draft, parameter: Parameter) -> None:
