@@ -82,6 +82,7 @@ LONG: dict[str, tuple[str, ...]] = {
     "field/test_silverbox.py": ("test_the_hardening_spring_is_named_and_predicts_the_arrow",),
     "importing/test_clamps.py": ("test_a_rotation_of_a_clamp_is_that_of_its_shell",),
     "importing/test_import.py": ("test_two_free_bodies",),
+    "importing/test_knots.py": ("test_without_a_set_the_model_is_that_of_the_solver[1.0-0.01]",),
     "importing/test_named_parts.py": (
         "test_few_coordinates_hold_a_set_that_is_soft_and_as_heavy_as_it_was[0.5]",
         "test_few_coordinates_hold_a_set_that_is_soft_and_as_heavy_as_it_was[0.8]",
@@ -92,6 +93,9 @@ LONG: dict[str, tuple[str, ...]] = {
         "test_what_is_missing_is_named_as_the_model_names_it[control]",
     ),
     "importing/test_thickness.py": (
+        "test_a_thickness_beside_constraints_is_that_of_the_solver[S4-EQUATION]",
+        "test_a_thickness_beside_constraints_is_that_of_the_solver[S4-RIGID BODY]",
+        "test_a_thickness_beside_constraints_is_that_of_the_solver[S8R-RIGID BODY]",
         "test_a_support_on_springs_leaves_the_thickness_of_sets_in_its_deck",
         "test_another_thickness_is_that_of_the_solver_in_a_diagnosis_its_deck_and_the_job[thinner-0.6]",
         "test_another_thickness_is_that_of_the_solver_in_a_diagnosis_its_deck_and_the_job[stiffness-gain-1.5]",

@@ -70,15 +70,15 @@ class Solver:
                 self.say(title)
                 self.ahead[text] = self.beside.submit(self._run, text, title)
 
-    def matrices(self, text: str, title: str, own: dict[int, Clamp | None], pointed: frozenset[int] = frozenset()) -> Exported:
-        """K and M of a job; own: nodes of the input file, and how shells stand at those whose rotations are held; pointed: as of
-        `rows`.
+    def matrices(self, text: str, title: str, own: dict[int, Clamp | None], *known: object) -> Exported:
+        """K and M of a job; own: nodes of the input file, and how shells stand at those whose rotations are held; known: the rest
+        of what `rows` takes.
         """
         held = self._kept(text, title, _matrix_arrays)
         from scipy.sparse import csr_array
 
         n = int(held["n"])
-        found = rows(held["dofs"], own, pointed)
+        found = rows(held["dofs"], own, *known)
         both = (csr_array((held[f"{x}_data"], held[f"{x}_indices"], held[f"{x}_indptr"]), shape=(n, n)) for x in "KM")
         return Exported(*(found.brought(matrix) for matrix in both), found, tuple(map(tuple, held["unknown"].tolist())))
 

@@ -85,7 +85,7 @@ def _supported(model: InputModel) -> tuple[str, str]:
 
 def _same_matrices(model: InputModel, parts: Parts, solver: Solver) -> Checked:
     """With K and M of the solver, supports in place: relative differences of these stand for those of frequencies."""
-    kept, theirs = _kept(model, parts.whole), solver.matrices(*_supported(model), model.own, model.pointed)
+    kept, theirs = _kept(model, parts.whole), solver.matrices(*_supported(model), *model.known)
     error = np.inf
     if theirs.K.shape[0] == len(kept):
         pairs = ((each[kept][:, kept], other) for each, other in ((parts.whole.K, theirs.K), (parts.whole.M, theirs.M)))
@@ -135,7 +135,7 @@ def check(model: InputModel, parts: Parts, solver: Solver) -> Checked:
     if (
         found.frequency - _SD * found.open > FREQUENCY
     ):  # thin shells: what its iteration leaves is more than what its matrices do
-        supported = solver.matrices(*_supported(model), model.own, model.pointed)
+        supported = solver.matrices(*_supported(model), *model.known)
         again = eigensolution(supported.K, supported.M, len(theirs)).eigenvalues[: len(theirs)]
         found = _compared(parts, K, again, own, X)
     _refuse(model, max(parts.error), SUM, "the matrices of the groups miss the whole by")

@@ -19,7 +19,7 @@ from mouse_cli.importing.thickness import total
 from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.held import Thickness
-from mouse_cli.model.revision import OF_SPRING, THICKNESS, TO_THE_POWER
+from mouse_cli.model.revision import DENSITY_OF, E_OF, OF_SPRING, THICKNESS, TO_THE_POWER
 from mouse_cli.model.units import SYSTEMS
 
 E_SD, DENSITY_SD, SPRING_SD = "5 %", "1 %", "20 %"  # what is known of a material and of a spring before the test
@@ -29,15 +29,13 @@ _DIRECTIONS = ("S", *DIRECTIONS)
 
 
 def write(
-    target: Path,
-    model: InputModel,
-    parts: Parts,
-    checked: Checked,
-    system: str,
-    thick: dict[int, Thickness],
-    shells: Iterable[Card] = (),
-) -> list[Path]:
-    """The deck `target` and a folder of its files beside it; returns all paths, the deck last. Raises WrittenError."""
+    target: Path, model: InputModel, parts: Parts, checked: Checked, system: str, thick: dict[int, Thickness],
+    shells: Iterable[Card], lost: dict[int, tuple[Matrix, Matrix]],
+) -> list[Path]:  # fmt: skip
+    """The deck `target` and a folder of its files beside it; returns all paths, the deck last. Raises WrittenError.
+
+    lost: what K and M lose without a group (number), where that is more than it gives.
+    """
     folder = target.parent / f"{target.stem}_model"
     folder.mkdir(parents=True, exist_ok=True)
     written: list[Path] = []
@@ -61,7 +59,7 @@ def write(
         f"  dofs: {table('dofs.csv', _dofs(parts.whole.rows.names))}",
         f"  nodes: {table('nodes.csv', _nodes(model))}",
         *_supports(model, parts),
-        *_sets(model, parts, keep, thick),
+        *_sets(model, parts, keep, thick, lost),
         *_parameters(model, parts, keep, system),
         *_thick(model, thick, shells, keep),
         *stub(checked.own, "12TZ"),
@@ -90,7 +88,7 @@ def _supports(model: InputModel, parts: Parts) -> list[str]:
     return lines + [f"    {word(name)}: {{dofs: {wrapped((names[i] for i in rows), 6)}}}" for name, rows in found]
 
 
-def _sets(model: InputModel, parts: Parts, keep, thick: dict[int, Thickness]) -> list[str]:
+def _sets(model: InputModel, parts: Parts, keep, thick: dict[int, Thickness], lost: dict) -> list[str]:
     lines = ["  sets:"] if model.groups else []
     for i, group in enumerate(model.groups):
         files = [f"{key}: {keep(f'{mark}_{_slug(group.name)}', matrix)}"
@@ -98,6 +96,10 @@ def _sets(model: InputModel, parts: Parts, keep, thick: dict[int, Thickness]) ->
         if files:
             nodes = sorted({node for e in group.elements for node in model.elements[e][1]})
             files += [f"thickness: {_by_power(thick[i], group.name, keep)}"] if i in thick else []
+            if i in lost:
+                of = zip(("stiffness", "mass"), "KM", lost[i], strict=True)
+                without = (f"{key}: {keep(f'{mark}_without_{_slug(group.name)}', matrix)}" for key, mark, matrix in of)
+                files.append(f"missing: {{{', '.join(without)}}}")
             lines.append(f"    {word(group.name)}: {{{', '.join(files)}, nodes: {wrapped(_ranges(nodes), 6)}}}")
     return lines
 
@@ -115,11 +117,11 @@ def _parameters(model: InputModel, parts: Parts, keep, system: str) -> list[str]
         value, unit = (material.E, pressure) if material.isotropic else (1.0, "1")
         if own and K.nnz:
             lines.append(
-                _parameter(f"E of {name}", value, unit, E_SD, "stiffness", keep(f"E_{_slug(name)}", K / value))
+                _parameter(E_OF.format(name), value, unit, E_SD, "stiffness", keep(f"E_{_slug(name)}", K / value))
             )
         if own and M.nnz and material.rho:
             file = keep(f"rho_{_slug(name)}", M / material.rho)
-            lines.append(_parameter(f"density of {name}", material.rho, density, DENSITY_SD, "mass", file))
+            lines.append(_parameter(DENSITY_OF.format(name), material.rho, density, DENSITY_SD, "mass", file))
     for i, group in enumerate(model.groups):
         if group.owner.keyword == "SPRING" and parts.K[i].nnz:
             k = group.constant

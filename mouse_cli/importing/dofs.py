@@ -25,6 +25,8 @@ class Rows:
 
     held: for (node, direction) of the input, the coordinates (from 0) that a support of it holds. beside (n,): the node of the
     input whose mean a coordinate is measured from, 0 for none; middle (n,): whether it is of a row between the outer ones.
+    follows: coordinates by the (node, direction) whose mean is none of them, as a constraint determines it. dofs (n, 2): the
+    rows as the solver names them.
     """
 
     T: Matrix | None
@@ -32,15 +34,19 @@ class Rows:
     held: dict[tuple[int, int], tuple[int, ...]]
     beside: np.ndarray
     middle: np.ndarray
+    follows: dict[tuple[int, int], tuple[int, ...]]
+    dofs: np.ndarray
 
     def brought(self, matrix: Matrix) -> Matrix:
         """T' matrix T."""
         return matrix if self.T is None else (self.T.T @ matrix @ self.T).tocsr()
 
 
-def rows(dofs: np.ndarray, own: dict[int, Clamp | None], pointed: frozenset[int] = frozenset()) -> Rows:
+def rows(
+    dofs: np.ndarray, own: dict[int, Clamp | None], pointed: frozenset[int] = frozenset(), layers: dict[int, int] | None = None
+) -> Rows:
     """dofs (n, 2): node and direction as the solver names its rows; own: nodes of the input; pointed: those at which something
-    acts but solids.
+    acts but solids; layers: nodes through the thickness that one of shells becomes.
 
     Where rotations of shells are held, what their faces move along them, beside the mean, is said by rotations.
     """
@@ -48,10 +54,16 @@ def rows(dofs: np.ndarray, own: dict[int, Clamp | None], pointed: frozenset[int]
     for i, (node, direction) in enumerate(dofs.tolist()):
         places.setdefault((node, direction), []).append(i)
     names, held, blocks, beside, middle = dofs.copy(), {}, [], np.zeros(len(dofs), int), np.zeros(len(dofs), bool)
-    top, first = max(int(dofs[:, 0].max()), max(own, default=0)), _points(dofs)
+    top, first, follows = max(int(dofs[:, 0].max()), max(own, default=0)), _points(dofs), {}
     for (node, direction), at in places.items():
         if node not in own:
             names[at] = [(top + 1 + i, _SCALAR) for i in at]
+        if at[0] >= first and len(at) < (layers or {}).get(node, 0):
+            follows[node, direction], middle[at[:-1]] = tuple(at), True
+            for i in at[1:]:
+                names[i] = top + 1 + i, _SCALAR
+            held[node, direction] = (at[0],)
+            continue
         if len(at) == 1:
             held[node, direction] = (at[0],)
             continue
@@ -60,14 +72,14 @@ def rows(dofs: np.ndarray, own: dict[int, Clamp | None], pointed: frozenset[int]
         rest = [i for i in at if i not in outer]
         held[node, direction] = (outer[0], *rest) if len(at) == 3 and len(outer) > 1 else (outer[0],)
         blocks.append((outer, rest))
-        middle[rest] = len(outer) > 1
+        middle[rest if len(outer) > 1 else rest[:-1]] = node in (layers or {}) or len(outer) > 1
         for i in outer[1:] + rest:
             names[i], beside[i] = (top + 1 + i, _SCALAR), node if node in own else 0
     T = _basis(len(dofs), blocks) if blocks else None
     for node, clamp in own.items():
         if clamp is not None and T is not None:
             T = T @ _rotations(node, clamp, places, names, held)
-    return Rows(T, names, {k: v for k, v in held.items() if k[0] in own}, beside, middle)
+    return Rows(T, names, {k: v for k, v in held.items() if k[0] in own}, beside, middle, follows, dofs)
 
 
 def _points(dofs: np.ndarray) -> int:

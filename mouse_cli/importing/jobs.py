@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 
 from mouse_cli.importing.cards import Card, Line
-from mouse_cli.importing.keywords import SECTIONS, TIES
+from mouse_cli.importing.keywords import NODES, SECTIONS, TIES
 from mouse_cli.importing.model import LAYER_MATERIAL, Group, InputModel, Material, word_at
 
 SCALE = 2.0  # of the moduli, densities, springs and masses of a group, in the job that tells its matrices
@@ -11,18 +11,20 @@ _MATRICES = ["*STEP", "*FREQUENCY, SOLVER=MATRIXSTORAGE", "1", "*END STEP"]
 _PER_LINE, _LONGEST = 8, 20
 
 
-def export(model: InputModel, scaled: Iterable[int] = (), thick: float = 1.0) -> str:
+def export(model: InputModel, scaled: Iterable[int] = (), thick: float = 1.0, gone: Iterable[int] = ()) -> str:
     """The job that writes K and M without supports; every group has a section of its own, those of `scaled` with SCALE.
 
-    thick: thickness of all shells over that of the file.
+    thick: thickness of all shells over that of the file. gone: elements that are left out.
     """
-    scaled, lines = set(scaled), []
+    scaled, gone, lines = set(scaled), set(gone), []
     owners = {id(group.owner) for group in model.groups}
     for card in model.kept:
         if id(card) not in owners:
-            lines += card.text()
+            lines += without(card, model, gone) if gone and card.keyword in ("ELEMENT", "ELSET") else card.text()
     factors = {id(group): (SCALE if i in scaled else 1.0,) * 2 for i, group in enumerate(model.groups)}
     for i, alike in enumerate(of_same_elements(model.groups)):
+        if gone and gone.issuperset(alike[0].elements):
+            continue
         lines += section(alike, f"MOUSE_{i}", factors, thick if alike[0].shell else 1.0)
     return "\n".join([*lines, *_MATRICES]) + "\n"
 
@@ -33,6 +35,18 @@ def frequencies(model: InputModel, count: int | None) -> str:
     held = [f"{node}, {d}, {d}" for support in model.supports for node, d in support.dofs]
     step = _MATRICES if count is None else ["*STEP", "*FREQUENCY", str(count), "*END STEP"]
     return "\n".join([*lines, *(["*BOUNDARY", *held] if held else []), *step]) + "\n"
+
+
+def probed(model: InputModel, dofs: list[tuple[int, int]]) -> tuple[str, dict[int, int]]:
+    """The job of K with a spring of stiffness 1 from each of the (node, direction) to a node of its own; those, by their number."""
+    text, first = export(model).removesuffix("\n".join(_MATRICES) + "\n"), max(model.nodes) + 1
+    element, lines = max(model.elements) + 1, ["*NODE"]
+    lines += [f"{first + k}, {', '.join(map(real, model.nodes[node].tolist()))}" for k, (node, _) in enumerate(dofs)]
+    for d in sorted({d for _, d in dofs}):
+        lines.append(f"*ELEMENT, TYPE=SPRING2, ELSET=MOUSE_PROBE_{d}")
+        lines += [f"{element + k}, {node}, {first + k}" for k, (node, own) in enumerate(dofs) if own == d]
+        lines += [f"*SPRING, ELSET=MOUSE_PROBE_{d}", f"{d}, {d}", "1.0"]
+    return text + "\n".join([*lines, *_MATRICES]) + "\n", {first + k: k for k in range(len(dofs))}
 
 
 def colours(model: InputModel) -> list[list[int]]:
@@ -152,3 +166,17 @@ def real(value: float) -> str:
 
 def listed(numbers: list[int]) -> list[str]:
     return [", ".join(map(str, numbers[i : i + _PER_LINE])) + "," for i in range(0, len(numbers), _PER_LINE)]
+
+
+def without(card: Card, model: InputModel, gone: set[int]) -> list[str]:
+    """A card of elements, or of a set of them, without those that are gone."""
+    if card.keyword == "ELSET":
+        if "GENERATE" in card.options or not gone & set(model.elsets.get(card.options.get("ELSET", ""), ())):
+            return card.text()
+        left = [e for e in dict.fromkeys(model.elsets[card.options["ELSET"]]) if e not in gone]
+        return [card.head.text, *listed(left)] if left else []
+    words = [int(word) for line in card.lines for word in line.words if word]
+    size = 1 + NODES[card.options["TYPE"]]
+    each = [words[i : i + size] for i in range(0, len(words), size)]
+    kept = [line for element in each if element[0] not in gone for line in listed(element)]
+    return [card.head.text, *(kept if size > 8 else [line.rstrip(",") for line in kept])] if kept else []

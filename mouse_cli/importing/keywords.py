@@ -34,6 +34,7 @@ NODES = {  # of each element that is read
     "C3D20R": 20, "S3": 3, "S4": 4, "S4R": 4, "S6": 6, "S8": 8, "S8R": 8, "B31": 2, "B31R": 2, "B32": 3, "B32R": 3,
     "SPRINGA": 2, "SPRING1": 1, "SPRING2": 2, "MASS": 1, "DASHPOTA": 2, "T3D2": 2, "T3D3": 3,
 }  # fmt: skip
+SHELLS = {"S3": 3, "S4": 4, "S4R": 4, "S6": 3, "S8": 4, "S8R": 4}  # corners of each
 EXPANDED = ("S", "B", "T3D")  # elements that CalculiX expands into solids
 
 

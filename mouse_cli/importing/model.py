@@ -129,6 +129,23 @@ class InputModel:
         return dict.fromkeys(self.nodes) | self.clamps
 
     @property
+    def known(self) -> tuple[dict[int, Clamp | None], frozenset[int], dict[int, int]]:
+        """What tells the rows of the solver: `own`, `pointed` and `layers`."""
+        return self.own, self.pointed, self.layers
+
+    @property
+    def layers(self) -> dict[int, int]:
+        """Nodes through the thickness that the solver makes of a node of shells: three at corners of quadratic ones, else two."""
+        from mouse_cli.importing.keywords import SHELLS
+
+        found: dict[int, int] = {}
+        for kind, nodes in self.elements.values():
+            corners = SHELLS.get(kind, 0)
+            for k, node in enumerate(nodes if corners else ()):
+                found[node] = max(found.get(node, 2), 3 if k < corners < len(nodes) else 2)
+        return found
+
+    @property
     def pointed(self) -> frozenset[int]:
         """Nodes at which springs, masses or equations act: in the solver they have rows of their own beside those of solids."""
         points = [each for kind, each in self.elements.values() if kind.startswith(("SPRING", "MASS"))]

@@ -9,8 +9,7 @@ from mouse_cli.formats.solver_cards import tag
 from mouse_cli.formats.solver_cards.keywords import keyword_lines
 from mouse_cli.importing.bricks import brick_lines
 from mouse_cli.importing.cards import Card
-from mouse_cli.importing.jobs import elastic, listed, of_same_elements, real, section, times
-from mouse_cli.importing.keywords import NODES
+from mouse_cli.importing.jobs import elastic, of_same_elements, real, section, times, without
 from mouse_cli.importing.model import Group, InputModel
 from mouse_cli.model.geometry import DIRECTIONS, rigid_motions
 from mouse_cli.model.problem import Problem
@@ -108,7 +107,7 @@ def _card(card: Card, model: InputModel, changes: _Changes, material: str, used:
     if card.keyword == "DENSITY" and factors[1] != 1.0:
         return [card.head.text, times(card, 0, factors[1], of=1)]
     if changes.gone and card.keyword in ("ELEMENT", "ELSET"):
-        return _left(card, model, changes.gone)
+        return without(card, model, changes.gone)
     named = card.options.get("ELSET")
     if thickness - {1.0}:
         noted, rest = (f"** {note}" for note in changes.notes.get(named, ())), (line.text for line in card.lines[1:])
@@ -131,20 +130,6 @@ def _sections(own: list[Group], changes: _Changes, used: set[str]) -> list[str]:
         thickness = changes.thickness.get(id(alike[0]), 1.0)
         lines += section(alike, tag(f"{alike[0].name}_REVISED", used), of | changes.groups, thickness)
     return lines
-
-
-def _left(card: Card, model: InputModel, gone: set[int]) -> list[str]:
-    """A card of elements, or of a set of them, without those that are gone."""
-    if card.keyword == "ELSET":
-        if "GENERATE" in card.options or not gone & set(model.elsets.get(card.options.get("ELSET", ""), ())):
-            return card.text()
-        left = [e for e in dict.fromkeys(model.elsets[card.options["ELSET"]]) if e not in gone]
-        return [card.head.text, *listed(left)] if left else []
-    words = [int(word) for line in card.lines for word in line.words if word]
-    size = 1 + NODES[card.options["TYPE"]]
-    each = [words[i : i + size] for i in range(0, len(words), size)]
-    kept = [line for element in each if element[0] not in gone for line in listed(element)]
-    return [card.head.text, *(kept if size > 8 else [line.rstrip(",") for line in kept])] if kept else []
 
 
 def _nodes(model: InputModel, word: str) -> list[int]:

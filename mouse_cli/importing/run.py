@@ -17,6 +17,7 @@ from mouse_cli.importing.model import InputModel
 from mouse_cli.importing.read import read
 from mouse_cli.importing.separate import Parts, parts
 from mouse_cli.importing.thickness import chosen, thicknesses
+from mouse_cli.importing.without import losses
 from mouse_cli.model.held import Thickness
 from mouse_cli.model.units import SYSTEMS
 
@@ -77,11 +78,12 @@ def imported(
         found = parts(model, solver, lambda whole: begin(model, whole, solver))
         thick = thicknesses(model, found, solver, shells)
         checked = check(model, found, solver)
+        lost, unknown = losses(model, found, solver)
     named, of_units = told(model, system)
-    remarks = [*model.remarks, *knots(model), *_passed_over(model, found), *of_units]
+    remarks = [*model.remarks, *knots(model, unknown), *_passed_over(model, found), *of_units]
     unit = SYSTEMS[named].length if named else ""
     thick = {i: replace(each, unit=unit) for i, each in thick.items()}
-    files = write(target, model, found, checked, named, thick, shells)
+    files = write(target, model, found, checked, named, thick, shells, lost)
     return Imported(model, found, checked, files, named, tuple(remarks), thick)
 
 

@@ -36,7 +36,7 @@ def parts(
     """
     from scipy.sparse import csr_array
 
-    own, classes = (model.own, model.pointed), colours(model)
+    own, classes = model.known, colours(model)
     if thick != 1.0:
         classes = [each for each in ([i for i in one if model.groups[i].shell] for one in classes) if each]
     jobs = [(export(model, chosen, thick), title) for chosen, title in _titled(model, classes, thick)]

@@ -6,8 +6,9 @@ their faces move beside the mean of a node (`dofs`) is half of t times a rotatio
 of C3D8I through the thickness, which no other element shares, by t^2. Where shells meet it has rotations as they are.
 """
 
+from collections import Counter
 from collections.abc import Iterable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from mouse_cli._errors import ERROR, WARNING, DeckError, Diagnostic
 from mouse_cli._span import Span
 from mouse_cli.importing.calculix import Exported, Solver
 from mouse_cli.importing.cards import Card
-from mouse_cli.importing.jobs import export
+from mouse_cli.importing.jobs import export, probed
 from mouse_cli.importing.model import InputModel, layered
 from mouse_cli.importing.separate import Parts, parts
 from mouse_cli.model.arrays import Matrix
@@ -49,12 +50,12 @@ def thicknesses(model: InputModel, found: Parts, solver: Solver, asked: list[Car
         return {}
     check = export(model, thick=_OTHER), f"the whole at {_OTHER:g} times the thickness"
     solver.begin([check])
-    there, other = parts(model, solver, thick=_SIZE), solver.matrices(*check, model.own, model.pointed)
+    there, other = parts(model, solver, thick=_SIZE), solver.matrices(*check, *model.known)
     error = np.inf
     if there.whole.K.shape == found.whole.K.shape == other.K.shape:
-        order = _order(model, found.whole, there.whole)
-        made = {i: _of_group(model, i, found, there, order) for i in shells}
-        error = max(_left(made.values(), found.whole, other, order, x) for x in "KM")
+        motions = _Motions(_order(model, found.whole, there.whole), _means(model, found.whole, solver))
+        made = {i: _of_group(model, i, found, there, motions) for i in shells}
+        error = max(_left(made.values(), found.whole, other, motions, x) for x in "KM")
     if error <= _OPEN:
         return made
     place = (asked[0] if asked else model.groups[shells[0]].owner).head.span
@@ -77,31 +78,103 @@ def total(parts: Iterable[Thickness]) -> Thickness:
     return first
 
 
+@dataclass(frozen=True)
+class _Motions:
+    """By which power of t the motion of each row goes, order (n,): 0, 1 or 2; of those beside a mean that constraints
+    determine, mean (n, n): that mean by the motions of the rows.
+    """
+
+    order: np.ndarray
+    mean: Matrix | None
+
+    def at(self, size: float) -> Matrix:
+        """S (n, n): motions u = S v at `size` times the thickness, of those v at the thickness of the file."""
+        S = _diagonal(size ** self.order.astype(float))
+        return S if self.mean is None else (S + _diagonal(1 - size ** self.order.astype(float)) @ self.mean).tocsr()
+
+
+def _means(model: InputModel, whole: Exported, solver: Solver) -> Matrix | None:
+    """Means (n, n) that constraints determine, a row for each coordinate beside one; None without any, or where they do not show.
+
+    The solver says how: a spring from the node to one of its own has -1 times the mean in that node's row of K. Numbers of nodes
+    that it adds itself come after these.
+    """
+    from scipy.sparse import csr_array
+
+    follows = list(whole.rows.follows)
+    if not follows:
+        return None
+    text, of = probed(model, follows)
+    own, pointed, layers = model.known
+    found = solver.matrices(
+        text, "what constraints make of nodes of shells", own, pointed | {node for node, _ in follows}, layers
+    )
+    at, last, n = _by_dof(whole), max(model.nodes), whole.K.shape[0]
+    entries: list[tuple[int, int, float]] = []
+    for i, (node, d) in enumerate(found.rows.dofs.tolist()):
+        if node not in of or follows[of[node]][1] != d:
+            continue
+        row = found.K[[i]].tocoo()
+        for j, value in zip(row.col.tolist(), row.data.tolist(), strict=True):
+            other, along = _dof(found, j)
+            if other in of:
+                continue
+            column = at.get((other - len(of) if other > last else other, along))
+            if column is None:
+                return None
+            entries += [(k, column, -value) for k in whole.rows.follows[follows[of[node]]]]
+    rows, columns, values = zip(*entries, strict=True) if entries else ((), (), ())
+    return csr_array((values, (rows, columns)), shape=(n, n))
+
+
+def _dof(found: Exported, i: int) -> tuple[int, int]:
+    """Node and direction of a coordinate: as of the input, or as the solver names what is none of its nodes."""
+    node, d = found.rows.names[i].tolist() if found.rows.names[i, 1] else found.rows.dofs[i].tolist()
+    return node, d
+
+
+def _by_dof(whole: Exported) -> dict[tuple[int, int], int]:
+    """Coordinates by node and direction, where these are of one row alone, or of a mean."""
+    every = [_dof(whole, i) for i in range(len(whole.rows.names))]
+    named = {dof for dof, (_, d) in zip(every, whole.rows.names.tolist(), strict=True) if d}
+    count = Counter(every)
+    return {dof: i for i, dof in enumerate(every) if whole.rows.names[i, 1] or (count[dof] == 1 and dof not in named)}
+
+
 def _order(model: InputModel, whole: Exported, there: Exported) -> np.ndarray:
     """By which power (n,) of t the motion of each row goes: 0, 1 or 2."""
     shells = {node for group in model.groups if group.shell for e in group.elements for node in model.elements[e][1]}
     faces = np.isin(whole.rows.beside, list(shells)) & (whole.rows.beside > 0)
     with np.errstate(divide="ignore", invalid="ignore"):
         inner = np.abs(there.K.diagonal() * _SIZE / whole.K.diagonal() - 1) < _INNER
+    faces[[i for at in whole.rows.follows.values() for i in at]] = True
     quadratic = (faces & whole.rows.middle) | (inner & ~faces & (whole.rows.names[:, 1] == 0))
     return np.where(quadratic, 2, faces)
 
 
-def _of_group(model: InputModel, i: int, found: Parts, there: Parts, order: np.ndarray) -> Thickness:
+def _of_group(model: InputModel, i: int, found: Parts, there: Parts, motions: _Motions) -> Thickness:
     nominal = float(model.groups[i].owner.lines[0].words[0])
     return Thickness(
-        nominal, "", *(_powers(getattr(found, x)[i], _scaled(getattr(there, x)[i], order, _SIZE), order) for x in "KM")
+        nominal,
+        "",
+        *(_powers(getattr(found, x)[i], _scaled(getattr(there, x)[i], motions, _SIZE), motions) for x in "KM"),
     )
 
 
-def _powers(at: Matrix, there: Matrix, order: np.ndarray) -> dict[float, Matrix]:
+def _powers(at: Matrix, there: Matrix, motions: _Motions) -> dict[float, Matrix]:
     """A_1, A_3 and A_5 of at = sum A_n and there = sum s^n A_n: 3 and 5 between quadratic motions, 1 and 3 elsewhere."""
-    both = _diagonal((order == 2).astype(float))
+    both = _diagonal((motions.order == 2).astype(float))
+    if motions.mean is not None:  # quadratic is what goes beyond the mean
+        mean, one = both @ motions.mean, _diagonal(np.ones(len(motions.order)))
+        at, there = ((one + mean).T @ each @ (one + mean) for each in (at, there))
     quadratic = both @ at @ both, both @ there @ both
     low, mid = _pair(at - quadratic[0], there - quadratic[1], 1)
     more, high = _pair(*quadratic, 3)
     largest = abs(at).max() if at.nnz else 0.0
-    kept = {n: _clean(each, largest) for n, each in ((1.0, low), (3.0, mid + more), (5.0, high))}
+    found = {1.0: low, 3.0: mid + more, 5.0: high}
+    if motions.mean is not None:
+        found = {n: (one - mean).T @ each @ (one - mean) for n, each in found.items()}
+    kept = {n: _clean(each, largest) for n, each in found.items()}
     return {n: each for n, each in kept.items() if each.nnz}
 
 
@@ -111,17 +184,17 @@ def _pair(at: Matrix, there: Matrix, n: int) -> tuple[Matrix, Matrix]:
     return at - upper, upper
 
 
-def _left(made: Iterable[Thickness], whole: Exported, other: Exported, order: np.ndarray, name: str) -> float:
+def _left(made: Iterable[Thickness], whole: Exported, other: Exported, motions: _Motions, name: str) -> float:
     """What the powers leave of the difference between two exports, over the largest of it."""
-    moved = _scaled(getattr(other, name), order, _OTHER) - getattr(whole, name)
+    moved = _scaled(getattr(other, name), motions, _OTHER) - getattr(whole, name)
     said = sum((_OTHER**n - 1) * each for one in made for n, each in getattr(one, name).items())
     return float(abs(moved - said).max() / max(abs(moved).max(), 1e-300))
 
 
-def _scaled(matrix: Matrix, order: np.ndarray, size: float) -> Matrix:
+def _scaled(matrix: Matrix, motions: _Motions, size: float) -> Matrix:
     """Of the motions at the thickness of the file."""
-    S = _diagonal(size ** order.astype(float))
-    return (S @ matrix @ S).tocsr()
+    S = motions.at(size)
+    return (S.T @ matrix @ S).tocsr()
 
 
 def _diagonal(values: np.ndarray) -> Matrix:

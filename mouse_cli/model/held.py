@@ -31,7 +31,8 @@ class Thickness:
 class ElementGroup:
     """An element set by its name: K and M (N, N), None where it gives nothing; nodes (numbers) that its elements join.
 
-    They are in the degrees of freedom of the model without supports, where it has any. thickness: of shells, else None.
+    They are in the degrees of freedom of the model without supports, where it has any. thickness: of shells, else None. missing:
+    what K and M lose without it, where that is more than it gives, as others are held by it; else None.
     """
 
     name: str
@@ -39,6 +40,7 @@ class ElementGroup:
     M: Matrix | None = None
     nodes: tuple[int, ...] = ()
     thickness: Thickness | None = None
+    missing: tuple[Matrix | None, Matrix | None] | None = None
 
 
 @dataclass(frozen=True)

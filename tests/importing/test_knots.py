@@ -6,10 +6,15 @@ import numpy as np
 import pytest
 from test_import import written
 
+from mouse_cli import read_deck, write_deck
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
+from mouse_cli.diagnosis.mechanisms import registry
+from mouse_cli.dynamics.solver import eigensolution
 from mouse_cli.importing.calculix import Solver
 from mouse_cli.importing.knots import knots
 from mouse_cli.importing.read import read
 from mouse_cli.importing.run import imported
+from mouse_cli.terms.assembly import assembly
 
 needs_ccx = pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX (ccx) is not on the path")
 
@@ -28,6 +33,12 @@ def strips(kind: str, rise: float, thickness: float, parts: str = "AB") -> str:
     for name, t in zip("AB", (0.01, thickness), strict=True):
         lines += [f"*SHELL SECTION, ELSET={name}, MATERIAL=STEEL", f"{t}"] if name in parts else []
     return "\n".join([*lines, "*NSET, NSET=ROOT", "1, 3, 19, 21", "*BOUNDARY", "ROOT, 1, 3\n"])
+
+
+def told(path: str) -> list:
+    """What is said of a job where K and M without its sets are not known."""
+    model = read(path)
+    return list(knots(model, range(len(model.groups))))
 
 
 def without_b(folder, text: str) -> np.ndarray:
@@ -52,14 +63,39 @@ def test_shells_that_meet_hold_one_another_in_the_solver(tmp_path, kind, least, 
         true = np.sqrt(np.sort(ccx.eigenvalues(alone, "alone"))[:3]) / (2 * np.pi)
     ratio = without_b(tmp_path, text) / true
     assert least < ratio.max() < most
-    assert bool(list(knots(read(written(tmp_path, text))))) == (kind == "S8R")
+    assert bool(told(written(tmp_path, text))) == (kind == "S8R")
 
 
 @pytest.mark.parametrize(
-    ("rise", "thickness", "told"), [(1.0, 0.01, True), (0.0, 0.02, True), (0.0, 0.01, False), (0.05, 0.01, False)]
+    ("rise", "thickness", "says"), [(1.0, 0.01, True), (0.0, 0.02, True), (0.0, 0.01, False), (0.05, 0.01, False)]
 )
-def test_knots_are_told_where_normals_or_thicknesses_differ(tmp_path, rise, thickness, told):
+def test_knots_are_told_where_normals_or_thicknesses_differ(tmp_path, rise, thickness, says):
     """A fold of 3 degrees has one normal in the solver, as a curved shell has."""
-    found = list(knots(read(written(tmp_path, strips("S8R", rise, thickness)))))
-    assert [each.code for each in found] == (["MD275"] if told else [])
-    assert not told or ("S8R of A, B" in found[0].message and "9 nodes" in found[0].message)
+    found = told(written(tmp_path, strips("S8R", rise, thickness)))
+    assert [each.code for each in found] == (["MD275"] if says else [])
+    assert not says or ("S8R of A, B" in found[0].message and "9 nodes" in found[0].message)
+
+
+@needs_ccx
+@pytest.mark.parametrize(("rise", "thickness"), [(1.0, 0.01), (0.0, 0.02)])
+def test_without_a_set_the_model_is_that_of_the_solver(tmp_path, rise, thickness):
+    """In the deck of the import, in a diagnosis, in the extended deck, and in that deck read back: ccx itself without the set."""
+    alone = strips("S8R", rise, thickness, "A") + "*STEP\n*FREQUENCY\n4\n*END STEP\n"
+    with Solver("job.inp", None, str) as ccx:
+        true = np.sqrt(np.sort(ccx.eigenvalues(alone, "alone"))[:4]) / (2 * np.pi)
+    found = imported(written(tmp_path, strips("S8R", rise, thickness)), tmp_path / "deck.yaml", "SI", False, str)
+    assert not [each for each in found.remarks if each.code == "MD275"]
+    test = f"test:\n  modes:\n    frequency: [{', '.join(map(str, true))}]\n    frequency_sd: 0.1 %\n"
+    (tmp_path / "deck.yaml").write_text((tmp_path / "deck.yaml").read_text() + test)
+    problem = read_deck(tmp_path / "deck.yaml")
+    model = reduced(problem, problem.prior.mean)
+    recipe = [each for each in model.recipes(registry()["member"]) if each.site(np.ones(1)).text == "element set B"][-1]
+    gone = np.array([recipe.unknowns[0].upper])
+    change = recipe.change(gone)
+    hz = lambda K, M: np.sqrt(eigensolution(K, M, 12).eigenvalues) / (2 * np.pi)
+    like = lambda own: np.abs(own[:, None] / true - 1).min(axis=0).max()  # what is left of B has modes of its own
+    assert like(hz(np.diag(model.eigenvalues) + change.K, np.eye(model.r) + change.M)) < 1e-3
+    extended = recipe.extend(problem, gone)
+    write_deck(extended, tmp_path / "extended.yaml")
+    for each in (extended, read_deck(tmp_path / "extended.yaml")):
+        assert like(hz(*assembly(each).matrices(each.prior.mean))) < 1e-3

@@ -242,3 +242,47 @@ def test_shells_keep_their_thickness_where_springs_act_and_supports_hold_what_th
     found = imports(written(tmp_path, folded(0.01) + spring), tmp_path / "deck.yaml", "SI", False, str)
     assert found.checked.frequency < 1e-6
     assert [found.model.groups[i].name for i in found.thick] == ["SKIN", "WEB"]
+
+
+def tied(kind: str, tie: str, thickness: float) -> str:
+    """A plate of two sets whose nodes constraints move: one as another in one direction, or four as a body with a mass."""
+    quadratic = kind == "S8R"
+    at = {(x, y): 0 for y in range(9) for x in range(13) if quadratic * (x % 2) * (y % 2) == 0}
+    number = {place: n for n, place in enumerate(at, 1)}
+    text = "*NODE\n" + "".join(f"{n}, {0.05 * x}, {0.05 * y}, 0.\n" for (x, y), n in number.items())
+    corners = ((0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1)) if quadratic else ((0, 0), (1, 0), (1, 1), (0, 1))
+    step, first = (2, 1) if quadratic else (1, 1)
+    for name, rows in (("LOW", range(0, 4, step)), ("HIGH", range(4, 8, step))):
+        text += f"*ELEMENT, TYPE={kind}, ELSET={name}\n"
+        for x, y in ((x, y) for y in rows for x in range(0, 12, step)):
+            text += f"{first}, {', '.join(str(number[x + i, y + j]) for i, j in corners)}\n"
+            first += 1
+    text += "*MATERIAL, NAME=M\n*ELASTIC\n7.0e10, 0.3\n*DENSITY\n2700.\n"
+    text += f"*SHELL SECTION, ELSET=LOW, MATERIAL=M\n{thickness!r}\n*SHELL SECTION, ELSET=HIGH, MATERIAL=M\n{thickness!r}\n"
+    inner = [number[each] for each in ((4, 2), (6, 2), (4, 4), (6, 4))]
+    if tie == "EQUATION":
+        text += f"*EQUATION\n3\n{inner[0]}, 3, 1., {number[8, 6]}, 3, -0.5, {inner[1]}, 3, -0.5\n"
+    else:
+        ref = len(number) + 1
+        text += f"*NODE\n{ref}, 0.25, 0.15, 0.1\n*NSET, NSET=BODY\n{', '.join(map(str, inner))}\n"
+        text += f"*RIGID BODY, NSET=BODY, REF NODE={ref}\n*ELEMENT, TYPE=MASS, ELSET=BOX\n{first}, {ref}\n*MASS, ELSET=BOX\n3.\n"
+    held = ", ".join(str(number[each]) for each in ((0, 0), (12, 0), (0, 8), (12, 8)))
+    return text + f"*NSET, NSET=ENDS\n{held}\n*BOUNDARY\nENDS, 1, 3\n"
+
+
+@solver
+@pytest.mark.parametrize("tie", ["EQUATION", "RIGID BODY"])
+@pytest.mark.parametrize("kind", ["S4", "S8R"])
+def test_a_thickness_beside_constraints_is_that_of_the_solver(tmp_path, kind, tie):
+    """Both sets at another thickness by their powers, against ccx."""
+    (tmp_path / "job").mkdir()
+    deck, said = imported(tmp_path / "job", tied(kind, tie, 0.01))
+    assert "thickness of shells by its powers: LOW, HIGH" in said
+    problem, size = read_deck(deck), 1.13
+    moved = assembly(problem).matrices(problem.prior.mean)
+    for k, x in enumerate("KM"):
+        for group in problem.groups:
+            for n, each in getattr(group.thickness, x).items() if group.thickness else ():
+                kept = problem.held.kept
+                moved = [a + (size**n - 1) * each[kept][:, kept] if i == k else a for i, a in enumerate(moved)]
+    assert np.allclose(hz(*moved), solved(tmp_path / "other", tied(kind, tie, size * 0.01)), rtol=1e-6)

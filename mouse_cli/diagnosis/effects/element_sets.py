@@ -20,6 +20,7 @@ from mouse_cli.model.revision import DENSITY_TIMES, E_TIMES, GONE, MASS_GAINED, 
 _GONE = 1 - 1e-7
 _MISSING, _HEAVIER = Unknown("share lost", "1", 0.02, _GONE), Unknown("share gained", "1", 0.02, 20.0)
 LIGHTER = Unknown("share lost", "1", 0.02, 0.99)
+_AS_A_WHOLE = Unknown("share lost", "1", 1 - GONE, _GONE)  # of what is lost without it
 # Of E and density, over those of the deck: from foam or a plastic for steel to the other way round.
 _STIFFER = Unknown("stiffness over that of the deck", "1", 0.02, 50.0)
 _DENSER = Unknown("mass over that of the deck", "1", 0.05, 20.0)
@@ -53,9 +54,13 @@ def listed(model: Reduced) -> list[tuple[str, Entries, np.ndarray]]:
 
 
 def missing(model: Reduced, candidate) -> list[Recipe]:
-    """K - d K_s and M - d M_s of each set that has both: a part that is missing, in part or as a whole, or thinner."""
-    found = _held(model)
-    return [_missing(candidate, *each, len(found)) for each in found]
+    """K - d K_s and M - d M_s of each set that has both: a part that is missing, wholly or in part, or thinner; and what K and M
+    lose without it, where others hold less then.
+    """
+    found, without = _held(model), _without(model)
+    whole = [(group, *without[group.name]) for group, *_ in found if group.name in without]
+    shares = [(each, _MISSING) for each in found] + [(each, _AS_A_WHOLE) for each in whole]
+    return [_missing(candidate, *each, len(shares), share) for each, share in shares]
 
 
 def heavier(model: Reduced, candidate) -> list[Recipe]:
@@ -92,12 +97,12 @@ def text(group: ElementGroup) -> str:
     return f"element set {group.name}"
 
 
-def _missing(candidate, group: ElementGroup, K: _Part, M: _Part, count: int) -> Recipe:
+def _missing(candidate, group: ElementGroup, K: _Part, M: _Part, count: int, share: Unknown) -> Recipe:
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         left = new_parameter(PART_LEFT.format(group.name), 1 - values[0], "1")
         return with_part_left(problem, left, K=(K.entries(1), K.slopes), M=(M.entries(1), M.slopes))
 
-    found = _recipe(candidate, _MISSING, group, count, (K.own, M.own), -1, extend)
+    found = _recipe(candidate, share, group, count, (K.own, M.own), -1, extend)
     return replace(found, grows=(K.grows, M.grows), title=lambda values: "a missing part" if values[0] > 1 - GONE else "")
 
 
@@ -154,6 +159,18 @@ def _sets(model: Reduced) -> list[_Set]:
             )
         ])  # fmt: skip
     return list(zip(model.problem.groups, *of_each, strict=True))
+
+
+def _without(model: Reduced) -> dict[str, tuple[_Part, _Part]]:
+    """By name of a set what K and M lose without it, where that is more than it gives; it grows as what the set gives."""
+    found: dict[str, list[_Part]] = {}
+    for name in "KM":
+        sets = sets_in(model, name)
+        for i, (factor, slopes) in enumerate(zip(sets.factors(model), sets.slopes.T, strict=True)):
+            if sets.missing[i] is not None:
+                part = _Part(sets.missing[i], factor * sets.less[i], slopes, slopes / factor)
+                found.setdefault(model.problem.groups[i].name, []).append(part)
+    return {name: tuple(parts) for name, parts in found.items() if len(parts) == 2}
 
 
 def has_energy(model: Reduced, K: np.ndarray) -> bool:

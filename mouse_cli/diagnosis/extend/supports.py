@@ -138,4 +138,5 @@ def _group(group: ElementGroup, T: Matrix, n: int) -> ElementGroup:
     by_power = lambda parts: {power: own(each) for power, each in parts.items()}
     thick = group.thickness
     thick = thick if thick is None else replace(thick, K=by_power(thick.K), M=by_power(thick.M))
-    return replace(group, K=own(group.K), M=own(group.M), thickness=thick)
+    missing = None if group.missing is None else tuple(map(own, group.missing))
+    return replace(group, K=own(group.K), M=own(group.M), thickness=thick, missing=missing)

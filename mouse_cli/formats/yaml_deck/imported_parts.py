@@ -59,8 +59,14 @@ def element_sets(section: Section, order: int, rows: Rows) -> tuple[ElementGroup
             below.error("MD276", "gives neither stiffness nor mass", "give the file of at least one of them")
         elif nodes is not None:
             thickness = _thickness(below, order, rows, {"stiffness": K, "mass": M})
-            found.append(ElementGroup(name, K, M, tuple(nodes.tolist()), thickness))
+            found.append(ElementGroup(name, K, M, tuple(nodes.tolist()), thickness, _missing(below, order, rows)))
     return tuple(found)
+
+
+def _missing(section: Section, order: int, rows: Rows) -> tuple[Matrix | None, Matrix | None] | None:
+    """What K and M lose without a set."""
+    given = section.section("missing")
+    return None if given is None else tuple(_matrix(given, key, order, rows) for key in ("stiffness", "mass"))
 
 
 def _thickness(section: Section, order: int, rows: Rows, whole: dict) -> Thickness | None:

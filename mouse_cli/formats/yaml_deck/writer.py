@@ -163,6 +163,9 @@ def parts(problem: Problem, stem: str, attachments: dict[str, Matrix | str], n: 
         given += [f"nodes: {wrapped(map(str, group.nodes), 6)}"] if group.nodes else []
         if group.thickness is not None:
             given.append(f"thickness: {_by_thickness(group.thickness, stem_of, files)}")
+        if group.missing is not None:
+            of = dict(zip(("stiffness", "mass"), group.missing, strict=True))
+            given.append(f"missing: {{{', '.join(_files(of, f'{stem_of}_missing', files))}}}")
         lines.append(f"    {word(group.name)}: {{{', '.join(given)}}}")
     for name, each in files.items():  # degrees of freedom that were added since are of no set
         attachments[name] = each if each.shape[0] == n else sparse_symmetric(*upper_triangle(each), n)

@@ -25,6 +25,7 @@ _FOLLOWS = 1e-6  # relative error up to which what a parameter does is that of w
 class SetsIn:
     """What each of g sets gives to K or M: stored (n, n), projected (r, r) on coordinates V; None where it gives nothing.
 
+    missing, less: what is lost without it, likewise; None where that is what it gives.
     slopes (p, g): how its share grows with each parameter. What parameter j does is sum_s a_js X_s where it is that of whole
     sets; X_s is then (1 + sum_j a_js (theta_j - nominal_j)) X_s.
     """
@@ -33,6 +34,8 @@ class SetsIn:
     stored: list[Matrix | None]
     projected: list[np.ndarray | None]
     slopes: np.ndarray
+    missing: list[Matrix | None]
+    less: list[np.ndarray | None]
 
     def factors(self, model: Reduced) -> np.ndarray:
         """The share (g,) of each that is there at the parameters of the model."""
@@ -45,8 +48,10 @@ def sets_in(model: Reduced, name: str) -> SetsIn:
     found = next((each for each in kept if each.V is model.V), None)
     if found is None:
         stored = [within(model.problem, getattr(group, name)) for group in model.problem.groups]
-        projected = [None if each is None else model.project(each) for each in stored]
-        found = SetsIn(model.V, stored, projected, _following(model, model.dK if name == "K" else model.dM, projected))
+        missing = [within(model.problem, (each.missing or (None, None))["KM".index(name)]) for each in model.problem.groups]
+        projected, less = ([None if x is None else model.project(x) for x in each] for each in (stored, missing))
+        slopes = _following(model, model.dK if name == "K" else model.dM, projected)
+        found = SetsIn(model.V, stored, projected, slopes, missing, less)
     kept[:] = [found, *(each for each in kept if each is not found)][:_KEPT]
     return found
 
@@ -79,12 +84,15 @@ def without_sets(
     factors, least = [each.factors(model) for each in of], 2 * _SHORT * float(model.data.sd_log.min())
     found: list[tuple[int, float, np.ndarray]] = []
     for i in range(len(problem.groups)):
-        own = [None if each.stored[i] is None else by[i] * each.stored[i] for each, by in zip(of, factors, strict=True)]
+        given, whole = ([each.stored[i] for each in of], [each.missing[i] for each in of])
+        whole = given if whole[0] is None else whole
+        own, all_ = ([None if x is None else by[i] * x for x, by in zip(each, factors, strict=True)] for each in (given, whole))
         blocks = [V]
         for rank, gone in enumerate(_STATES if own[0] is not None else ()):
             if not any(gone[1:]) or own[1] is not None:
                 lost = [
-                    None if each is None or not share else share * each for share, each in zip(gone, own, strict=True)
+                    None if each is None or not share else share * each
+                    for share, each in zip(gone, all_ if rank == 0 else own, strict=True)
                 ]
                 size, rows = _apart(K, M, sigma, lost, blocks, last, least)
                 found += [(rank, -error, row) for error, row in zip(size.tolist(), rows, strict=True)]

@@ -47,6 +47,14 @@ SECTIONS = {
             "mass": Key("section file", "what the set gives to mass", "nothing", "kg"),
             "nodes": Key("ids", "nodes of its elements", "none"),
             "thickness": Key("section thickness", "of shells: what it gives by powers of their thickness", "none"),
+            "missing": Key("section missing", "what stiffness and mass lose without it, where others hold less then", "none"),
+        },
+    ),
+    "missing": Section(
+        "What stiffness and mass lose without an element set, where that is more than it gives.",
+        {
+            "stiffness": Key("section file", "K less K without the set", "nothing", "N/m"),
+            "mass": Key("section file", "M less M without the set", "nothing", "kg"),
         },
     ),
     "thickness": Section(
