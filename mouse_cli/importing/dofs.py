@@ -43,10 +43,12 @@ class Rows:
 
 
 def rows(
-    dofs: np.ndarray, own: dict[int, Clamp | None], pointed: frozenset[int] = frozenset(), layers: dict[int, int] | None = None
-) -> Rows:
+    dofs: np.ndarray, own: dict[int, Clamp | None], pointed: frozenset[int] = frozenset(), layers: dict[int, int] | None = None,
+    axes: dict[int, np.ndarray] | None = None,
+) -> Rows:  # fmt: skip
     """dofs (n, 2): node and direction as the solver names its rows; own: nodes of the input; pointed: those at which something
-    acts but solids; layers: nodes through the thickness that one of shells becomes.
+    acts but solids; layers: nodes through the thickness that one of shells becomes; axes (3, 3) of nodes
+    whose motions are along these.
 
     Where rotations of shells are held, what their faces move along them, beside the mean, is said by rotations.
     """
@@ -60,8 +62,7 @@ def rows(
             names[at] = [(top + 1 + i, _SCALAR) for i in at]
         if at[0] >= first and len(at) < (layers or {}).get(node, 0):
             follows[node, direction], middle[at[:-1]] = tuple(at), True
-            for i in at[1:]:
-                names[i] = top + 1 + i, _SCALAR
+            names[at[1:]] = np.reshape([(top + 1 + i, _SCALAR) for i in at[1:]], (-1, 2))
             held[node, direction] = (at[0],)
             continue
         if len(at) == 1:
@@ -79,7 +80,27 @@ def rows(
     for node, clamp in own.items():
         if clamp is not None and T is not None:
             T = T @ _rotations(node, clamp, places, names, held)
+    T = _turned(T, names, axes, held) if axes else T
     return Rows(T, names, {k: v for k, v in held.items() if k[0] in own}, beside, middle, follows, dofs)
+
+
+def _turned(T: Matrix | None, names: np.ndarray, axes: dict[int, np.ndarray], held: dict) -> Matrix:
+    """T with the motions of some nodes along axes of their own; those of which a constraint takes one cannot be held."""
+    from scipy.sparse import lil_array
+
+    n, at = len(names), {tuple(each): i for i, each in enumerate(names.tolist())}
+    turn = lil_array((n, n))
+    turn.setdiag(1.0)
+    for node, R in axes.items():
+        rows = [at.get((node, d)) for d in (1, 2, 3)]
+        if None in rows:
+            for d in (1, 2, 3):
+                held.pop((node, d), None)
+            continue
+        for i, row in zip(rows, R, strict=True):
+            for j, value in zip(rows, row, strict=True):
+                turn[i, j] = value
+    return turn.tocsr() if T is None else (T @ turn.tocsr()).tocsr()
 
 
 def _points(dofs: np.ndarray) -> int:

@@ -105,7 +105,8 @@ class InputModel:
     """nodes: coordinates by number; elements: type and nodes by number; kept: the cards of the model, without steps and supports.
 
     every: all cards of the file, included files in their place. ignored: keywords without effect on K and M, and how often.
-    turned: nodes whose boundary conditions are in directions of their own (*TRANSFORM).
+    turned: axes (3, 3), in columns, of nodes whose supports and equations are in directions of their own (*TRANSFORM).
+    own_axes: of those that are held in some of these directions: their degrees of freedom have them.
     """
 
     path: str
@@ -120,7 +121,8 @@ class InputModel:
     groups: list[Group] = field(default_factory=list)
     ignored: dict[str, int] = field(default_factory=dict)
     remarks: list[Diagnostic] = field(default_factory=list)
-    turned: set[int] = field(default_factory=set)
+    turned: dict[int, np.ndarray] = field(default_factory=dict)
+    own_axes: dict[int, np.ndarray] = field(default_factory=dict)
     clamps: dict[int, Clamp] = field(default_factory=dict)
 
     @property
@@ -129,9 +131,9 @@ class InputModel:
         return dict.fromkeys(self.nodes) | self.clamps
 
     @property
-    def known(self) -> tuple[dict[int, Clamp | None], frozenset[int], dict[int, int]]:
-        """What tells the rows of the solver: `own`, `pointed` and `layers`."""
-        return self.own, self.pointed, self.layers
+    def known(self) -> tuple[dict[int, Clamp | None], frozenset[int], dict[int, int], dict[int, np.ndarray]]:
+        """What tells the rows of the solver: `own`, `pointed`, `layers` and `own_axes`."""
+        return self.own, self.pointed, self.layers, self.own_axes
 
     @property
     def layers(self) -> dict[int, int]:

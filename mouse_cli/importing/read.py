@@ -10,6 +10,7 @@ from mouse_cli.importing.cards import Card, Faults, Line, cards, meant
 from mouse_cli.importing.clamps import clamped
 from mouse_cli.importing.groups import grouped
 from mouse_cli.importing.keywords import NODES, PASSED, READ, RELEVANT, REMEDIES, TIES, WITHOUT_EFFECT
+from mouse_cli.importing.local_axes import local_axes
 from mouse_cli.importing.model import LAYER_MATERIAL, LAYER_ORIENTATION, InputModel, Material, layered, word_at
 from mouse_cli.importing.supports import supports
 
@@ -43,7 +44,7 @@ def read(path: str, outside: bool = False) -> InputModel:
     faults.stop()
     model.clamps = clamped(model, clamps, faults)
     faults.stop()
-    model.kept = [card for card in model.kept if not _damps(card) and card.keyword != "TRANSFORM"]
+    model.kept = [card for card in model.kept if not _damps(card)]
     return model
 
 
@@ -200,12 +201,20 @@ def members_of(word: str, line: Line, sets: dict, members: dict, faults: Faults)
 
 
 def _transform(model: InputModel, card: Card, faults: Faults) -> None:
-    """*TRANSFORM: its directions may be those of supports, and of no constraint."""
-    model.turned |= set(members_of(card.options.get("NSET", ""), card.head, model.nsets, model.nodes, faults))
-    ties = [each for each in model.kept if each.keyword in TIES]
+    """*TRANSFORM: its directions may be those of supports and of *EQUATION, and of no other constraint."""
+    words = [word for line in card.lines for word in line.words if word]
+    data = [number(card.lines[0], word, faults, "coordinate") for word in words[:6]]
+    ties = [each for each in model.kept if each.keyword in TIES - {"EQUATION"}]
     if ties:
         message = f"*TRANSFORM beside *{ties[0].keyword}, whose directions it may turn"
         faults.add("MD268", message, card.head.span, "give constraints and boundary conditions in global directions")
+    for node in members_of(card.options.get("NSET", ""), card.head, model.nsets, model.nodes, faults):
+        axes = None if len(data) < 6 else local_axes(card.options.get("TYPE", "R"), np.array(data), model.nodes[node])
+        if axes is None:
+            message = f"*TRANSFORM gives no directions at node {node}"
+            faults.add("MD265", message, card.head.span, "give two points, TYPE=R or TYPE=C, and no node on the axis")
+            return
+        model.turned[node] = axes
 
 
 def _material(model: InputModel, card: Card, faults: Faults) -> None:

@@ -151,8 +151,8 @@ def _added(model: InputModel, problem: Problem, revision: Revision, inertia: boo
             lines += more
             first += len(tied[support.name].directions)
     nodes = {n for n, _ in released}
-    if nodes & model.turned:
-        message = f"node {min(nodes & model.turned)} has directions of *TRANSFORM, and its support is revised"
+    if nodes & model.turned.keys():
+        message = f"node {min(nodes & model.turned.keys())} has directions of *TRANSFORM, and its support is revised"
         raise DeckError.of("MD483", message, problem.place("order"), help="take *TRANSFORM out of the job")
     held = [dof for each in model.supports for dof in each.dofs if dof[0] in nodes and dof not in released]
     rest = replace(revision, materials=(), sections=(), sets=(), supports=(), springs=tuple(springs))

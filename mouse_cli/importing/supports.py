@@ -44,15 +44,27 @@ def supports(model: InputModel, boundary: list[Card], faults: Faults) -> dict[in
 
 
 def _turned(model: InputModel, found: Iterable[Support], held: set[tuple[int, int]], faults: Faults) -> None:
-    """Refuse a node of *TRANSFORM that is held in some of its directions; one that is held in all needs no directions."""
+    """A node of *TRANSFORM that is held in some of its directions has these in the deck; refused where a shell has it that CalculiX
+    holds otherwise. One that is held in all needs no directions.
+    """
+    quadratic = {node for node, count in model.layers.items() if count > 2}
     for support in found:
+        own = []
         for node, d in support.dofs:
             first = 1 if d <= 3 else 4
-            if node in model.turned and not {(node, k) for k in range(first, first + 3)} <= held:
-                message = f"node {node} of support {support.name} is held in some directions of *TRANSFORM alone"
-                help = "hold it in global directions, or in all three"
-                faults.add("MD273", message, support.card.head.span, help)
+            if node not in model.turned or {(node, k) for k in range(first, first + 3)} <= held:
+                continue
+            if d > 3 or node in quadratic:
+                what = "rotations" if d > 3 else "a corner of S6, S8 or S8R"
+                message = f"node {node} of support {support.name} is held in some directions of *TRANSFORM alone: {what}"
+                faults.add("MD273", message, support.card.head.span, "hold it in global directions, or in all three")
                 break
+            own.append(node)
+        if own:
+            model.own_axes |= {node: model.turned[node] for node in own}
+            message = f"support {support.name} holds node {own[0]} in some directions of *TRANSFORM ({len(set(own))} such nodes)"
+            help = "their degrees of freedom in the deck have these directions: give what sensors measure there in them"
+            model.remarks.append(Diagnostic("MD273", WARNING, message, support.card.head.span, help=help))
 
 
 def _hold(model: InputModel, own: Support, dofs: list[tuple[int, int]], taken: dict, line: Line) -> None:

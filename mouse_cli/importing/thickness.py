@@ -105,9 +105,9 @@ def _means(model: InputModel, whole: Exported, solver: Solver) -> Matrix | None:
     if not follows:
         return None
     text, of = probed(model, follows)
-    own, pointed, layers = model.known
+    own, pointed, *rest = model.known
     found = solver.matrices(
-        text, "what constraints make of nodes of shells", own, pointed | {node for node, _ in follows}, layers
+        text, "what constraints make of nodes of shells", own, pointed | {node for node, _ in follows}, *rest
     )
     at, last, n = _by_dof(whole), max(model.nodes), whole.K.shape[0]
     entries: list[tuple[int, int, float]] = []

@@ -272,6 +272,31 @@ def test_a_clamp_in_directions_of_its_own(tmp_path):
     )
 
 
+_FREE = BAR[: BAR.index("*BOUNDARY")] + "*NSET, NSET=TOP\n9, 10\n"
+_SKEW = "1, 2, 0, -2, 1, 0\n"
+
+
+@solver
+@pytest.mark.parametrize(
+    "rest",
+    [f"*TRANSFORM, NSET=FOOT\n{_SKEW}*BOUNDARY\nFOOT, 1, 1\nFOOT, 3, 3\n",
+     "*TRANSFORM, NSET=FOOT, TYPE=C\n.5, .4, 0, .5, .4, 1\n*BOUNDARY\nFOOT, 2, 3\n",
+     f"*EQUATION\n2\n9, 1, 1., 10, 2, -1.\n*TRANSFORM, NSET=TOP\n{_SKEW}*BOUNDARY\nFOOT, 1, 3\n"],
+    ids=["rectangular", "cylindrical", "equation"],
+)  # fmt: skip
+def test_directions_of_their_own_are_those_of_the_solver(tmp_path, rest):
+    """Supports in some of the directions of *TRANSFORM, and equations in them: ccx by the file as it is."""
+    from mouse_cli.importing.calculix import Solver
+
+    found = imports(written(tmp_path, _FREE + rest), tmp_path / "deck.yaml", "SI", False, str)
+    with Solver("job.inp", None, str) as ccx:
+        expected = np.sort(ccx.eigenvalues(_FREE + rest + "*STEP\n*FREQUENCY\n4\n*END STEP\n", "by hand"))
+    problem = read_deck(tmp_path / "deck.yaml")
+    K, M = assembly(problem).matrices(problem.prior.mean)
+    np.testing.assert_allclose(eigensolution(K, M, 4).eigenvalues[1:4], expected[1:4], rtol=1e-5)
+    assert [each.code for each in found.remarks if "TRANSFORM" in each.message] == ([] if "EQUATION" in rest else ["MD273"])
+
+
 REFUSED = {
     "contact": (BAR + "*CONTACT PAIR, INTERACTION=A\nX, Y\n", "MD268", 37),
     "unknown keyword": (BAR.replace("*NSET", "*FANCY\n*NSET"), "MD268", 20),
@@ -287,11 +312,11 @@ REFUSED = {
     "missing include": (BAR + "*INCLUDE, INPUT=absent.inc\n", "MD266", 31),
     "cyclic include": (BAR + "*INCLUDE, INPUT=job.inp\n", "MD267", 31),
     "prestress": (BAR + "*STEP\n*STATIC\n*END STEP\n*STEP, PERTURBATION\n*FREQUENCY\n5\n*END STEP\n", "MD268", 34),
-    "transform": (TURNED.replace("FOOT, 1, 3", "FOOT, 1, 2"), "MD273", 29),
+    "transform without directions": (BAR + "*TRANSFORM, NSET=FOOT, TYPE=C\n0, 0, 0, 0, 0, 1\n", "MD265", 31),
     "transform beside a constraint": (
-        BAR + "*EQUATION\n2\n5, 1, 1., 6, 1, -1.\n*TRANSFORM, NSET=FOOT\n1, 1, 0, 0, 1, 0\n",
+        BAR + "*MPC\nPLANE, 9, 10, 11, 12\n*TRANSFORM, NSET=FOOT\n1, 1, 0, 0, 1, 0\n",
         "MD268",
-        34,
+        33,
     ),
 }
 
