@@ -70,17 +70,23 @@ def _with_double(macs: np.ndarray, test: np.ndarray, shapes: np.ndarray, hz: np.
     where = have[:, :1] if have.all() else np.unique(have, axis=1)  # one factorisation for shapes measured at the same points
     for points in where.T:
         alike = np.flatnonzero((have == points[:, None]).all(axis=0))
-        Y = test[np.ix_(points, alike)]
-        for first, last in edges.reshape(-1, 2):
-            own = order[first : last + 1]
-            if len(Y) > len(own):
-                U, size, _ = np.linalg.svd(shapes[points][:, own], full_matrices=False)
-                along = U[:, size > _SAME_SHAPE * size[0]].T @ Y
-                seen = np.square(along).sum(axis=0) / np.maximum(np.square(Y).sum(axis=0), 1e-300)
-                unlike = (1 - seen) * (len(Y) - 1) / (len(Y) - len(own))
-                at = np.ix_(alike, own)
-                macs[at] = np.maximum(macs[at], 1 - unlike[:, None] - _WITHIN * (1 - macs[at]))
+        _as_groups(macs, alike, test[np.ix_(points, alike)], shapes[points], order, edges.reshape(-1, 2))
     return macs
+
+
+def _as_groups(macs: np.ndarray, rows: np.ndarray, Y: np.ndarray, shapes: np.ndarray, order, edges) -> None:
+    """Into those rows of `macs` what groups of double modes can be together, those of as many modes at once.
+
+    Y (s, y): measured shapes of the rows; shapes (s, k); edges (g, 2): first and last mode of each group in `order` (k,).
+    """
+    count, measured = edges[:, 1] - edges[:, 0] + 1, np.maximum(np.square(Y).sum(axis=0), 1e-300)
+    for d in set(count[count < len(Y)].tolist()):
+        own = order[edges[count == d, :1] + np.arange(d)]  # (g, d)
+        U, size, _ = np.linalg.svd(shapes[:, own].transpose(1, 0, 2), full_matrices=False)
+        along = np.swapaxes(U * (size > _SAME_SHAPE * size[:, :1])[:, None], 1, 2) @ Y
+        unlike = (1 - np.square(along).sum(axis=1) / measured) * (len(Y) - 1) / (len(Y) - d)
+        at = np.ix_(rows, own.ravel())
+        macs[at] = np.maximum(macs[at], 1 - np.repeat(unlike.T, d, axis=1) - _WITHIN * (1 - macs[at]))
 
 
 class Measured:
