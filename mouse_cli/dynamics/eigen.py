@@ -10,7 +10,7 @@ from mouse_cli.dynamics.krylov import Krylov
 RIGID = 1e-6  # |lambda| up to this share of the first measured eigenvalue is a rigid-body mode
 _ROUNDED = 1e-13  # shares of the largest eigenvalue: no more than rounding
 _LOW = 1e-6  # that share, of a mode that has lost digits to rounding
-_PIVOT = 4 * np.finfo(float).eps  # by the order of M, share of a mass up to which its pivot is rounding: the motion has none
+_PIVOT = 4 * np.finfo(float).eps  # by the order of M, share of masses up to which a pivot is rounding: the motion has none
 _MASSLESS = 1e-13  # eigenvalues of M up to this share of the largest are no mass
 
 
@@ -72,14 +72,26 @@ def _by_masses(K: np.ndarray, M: np.ndarray) -> EigenSolution:
             return EigenSolution(eigenvalues, vectors * scale[:, None])
         return _condensed(K, M)
     try:
-        L = np.linalg.cholesky(M)
+        L = None if _singular(M) else np.linalg.cholesky(M)
     except np.linalg.LinAlgError:
-        return _condensed(K, M)
-    if (L.diagonal() ** 2 <= _PIVOT * len(M) * masses).any():
+        L = None
+    if L is None:
         return _condensed(K, M)
     reduced = np.linalg.solve(L, np.linalg.solve(L, K).T)
     eigenvalues, vectors = np.linalg.eigh((reduced + reduced.T) / 2)
     return EigenSolution(eigenvalues, np.linalg.solve(L.T, vectors))
+
+
+def _singular(M: np.ndarray) -> bool:
+    """Whether a pivot of M, the largest first, is rounding beside the masses that it is coupled with.
+
+    Squares of arms that are subtracted leave the rounding of the larger ones, which other orders of pivots would magnify.
+    """
+    from scipy.linalg.lapack import dpstrf
+
+    L, order, rank, _ = dpstrf(M, tol=np.finfo(float).tiny, lower=1)
+    coupled = np.where(M != 0, M.diagonal(), 0.0).max(axis=1)[order - 1]
+    return rank < len(M) or bool((L.diagonal() ** 2 <= _PIVOT * len(M) * coupled).any())
 
 
 def _sharpened(K: np.ndarray, M: np.ndarray, solution: EigenSolution) -> EigenSolution:

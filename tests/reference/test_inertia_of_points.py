@@ -7,7 +7,7 @@ from scipy.linalg import null_space
 from mouse_cli.dynamics.eigen import dense_solution
 
 RATES = np.diag([4e5, 7e5, 3e5])  # N m/rad
-ARMS = [(0.03, 0.02, -0.05), (0.1, 0.2, 0.15), (1.0, 0.3, -0.7), (1e-3, 2e-2, 0.4)]
+ARMS = [(0.03, 0.02, -0.05), (0.1, 0.2, 0.15), (1.0, 0.3, -0.7), (1e-3, 2e-2, 0.4), (0.3, -6.5e-3, -2.8e-3), (0.023, -3.5, -3e-4)]
 
 
 @pytest.mark.parametrize("arm", ARMS)
