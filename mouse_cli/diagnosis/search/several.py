@@ -34,6 +34,7 @@ FURTHER = 0.2  # p-value of the best set below which a larger one may gain what 
 _BEHIND = 25.0  # times the misfit of the best alone, from which on none begins a pair beside one that explains the data
 _SWAPPED = 4  # pairs whose aliases are tried
 _PAIRED, _WIDE = 8, 5  # candidates that are tried in pairs; groups of which the best is tried with every candidate
+_NATS = 30.0  # by which two are more probable than one, whatever the noise, for a third to be sought beside what may be noise
 _ROUNDS = 3  # of aliases
 _GROWN = 2  # sets that grow further
 _EXCHANGED = 3  # sets whose mechanisms are exchanged to see what is as good
@@ -55,7 +56,8 @@ def several(study: Study, singles: list[Fit], most: int, trusted: bool = True, b
 
     Where one alone is not refuted (GATE), by what the deck holds out neither, sets are sought only beside those that come near it,
     and further if one of them gains.
-    trusted: whether what one alone leaves says that the test is as accurate as stated; else a pair has to. begun: see `alone`.
+    trusted: whether what one alone leaves says that the test is as accurate as stated; else a pair has to, or gains what no noise
+    would give it. begun: see `alone`.
     """
     alone = plain(singles)
     if any(enough(one, GATE, GATE) for one in alone) and not _gains(
@@ -65,7 +67,7 @@ def several(study: Study, singles: list[Fit], most: int, trusted: bool = True, b
     singles = singles + [one for one in alone if not any(one is other for other in singles)]
     found = pairs(study, singles, begun := Found(begun))
     smaller, growing = singles + found, found
-    most = most if trusted or any(map(adequate, found)) else min(most, 2)
+    most = most if trusted or any(map(adequate, found)) or _demanded(alone, found) else min(most, 2)
     of_kind = (trusted and most > 2) or not any(map(enough, found))
     alike = same_kind(study, singles, most, smaller, begun) if of_kind else []
     count, before = 3, alone
@@ -89,6 +91,16 @@ def several(study: Study, singles: list[Fit], most: int, trusted: bool = True, b
     known = {key(one) for one in found}
     found += [one for one in alike if key(one) not in known and material(one, smaller + alike)]
     return replaced(found, _as_good(study, found, smaller) if _exchangeable(found, smaller) else [])
+
+
+def _demanded(singles: list[Fit], sets: list[Fit]) -> bool:
+    """Whether the best of `sets` is more probable than the best single one however inaccurate the test is: of two mechanisms that
+    are there without a third one, as of noise that is more than stated, much is left.
+    """
+    if not singles or not sets:
+        return False
+    one, best = (min(each, key=lambda fit: fit.misfit) for each in (singles, sets))
+    return best.dof / 2 * np.log(one.misfit / best.misfit) > _NATS
 
 
 def hopeful(fewer: list[Fit], sets: list[Fit], most: int) -> bool:
