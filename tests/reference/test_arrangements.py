@@ -7,10 +7,12 @@ import numpy as np
 import pytest
 
 from mouse_cli.cli.main import _run
+from mouse_cli.diagnosis.likelihoods.configurations import diagnose
 from mouse_cli.diagnosis.likelihoods.configurations.model import Arranged, Together, common
 from mouse_cli.diagnosis.likelihoods.configurations.predict import predicted
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.search.fit import fit
+from mouse_cli.diagnosis.search.rank import rank
 from mouse_cli.formats import read_deck
 
 N, K, MASS, ITEM = 8, 2.0e5, 1.0, 0.12
@@ -122,6 +124,17 @@ def test_what_did_not_change_may_be_held_out_too(tmp_path):
     (cause,) = found["verdict"]["causes"]
     assert (code, cause["physics"], cause["site"]["text"]) == (1, "stiffness-loss", "spring 4")
     assert found["held_out"]["revised"]["rms_frequency_error"] < 0.001
+
+
+def test_nothing_is_sought_behind_a_change_that_explains_all(tmp_path, monkeypatch):
+    """All sets of what changed were sought a second time beside the one that was named, only to be told that nothing is left."""
+    ranked = []
+    monkeypatch.setattr(diagnose, "rank", lambda *given, **more: ranked.append(given[0]) or rank(*given, **more))
+    before = [deck(tmp_path, f"b{i}", p, frequencies(p, ITEM), i, ITEM) for i, p in enumerate(PLACES[:3])]
+    later = [deck(tmp_path, f"d{i}", p, frequencies(p, ITEM, lost=0.2), 20 + i, ITEM) for i, p in enumerate(PLACES[:4])]
+    code, found = asked(tmp_path, *before, *(part for each in later for part in ("--changed", each)))
+    (cause,) = found["verdict"]["causes"]
+    assert (code, cause["physics"], cause["site"]["text"], len(ranked)) == (1, "stiffness-loss", "spring 4", 1)
 
 
 @pytest.fixture

@@ -13,7 +13,8 @@ from mouse_cli.diagnosis.likelihoods.configurations.predict import predicted, sh
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.mechanisms import Candidate, registry
 from mouse_cli.diagnosis.nameless.fit import field_of, rivals
-from mouse_cli.diagnosis.search.fit import Fit
+from mouse_cli.diagnosis.search.escape import uncrossed
+from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.rank import Ranking, rank, ranking, unnamed
 from mouse_cli.diagnosis.verdict import (
     ODDS,
@@ -100,7 +101,7 @@ def diagnose_arrangements(
             continue
         turns.append(turn)
         notice(f"{len(turns)}: {turn.best.title}")
-        at = _state(at.fitted.extended(best), at.unseen.extended(best), known, choices.causes)
+        at = _state(at.fitted.extended(best), at.unseen.extended(best), known, choices.causes, at)
     held = _held_out(unseen.problems, first.before, at.before if turns else None)
     return _answer(fitted, at, tuple(turns), held, refuted, choices)
 
@@ -146,11 +147,21 @@ def _field(at: State) -> Field | None:
     return None if i is None or not found.log_odds[i] > ODDS else field_of(found, found.fits[i])
 
 
-def _state(fitted: Decks, unseen: Decks, known: dict[str, Candidate] | None, causes: int) -> State:
-    """What candidates make of decks as they are: of what changed together, of what all have one after another."""
+def _state(
+    fitted: Decks, unseen: Decks, known: dict[str, Candidate] | None, causes: int, before: State | None = None
+) -> State:
+    """What candidates make of decks as they are: of what changed together, of what all have one after another.
+
+    before: the state with one mechanism less. Where sets of what changed were sought there, and the one that led leaves no more
+    than noise, nothing that decks held out could confirm is sought again.
+    """
     changed = not all(fitted.having)
-    ranking = rank(fitted.arranged, known, causes if changed else 1, kind=Together, last=changed)
-    return State(fitted, unseen, ranking, _predicted(ranking.baseline, unseen))
+    if changed and before is not None and not unseen.problems:
+        none = uncrossed(fit(Together(fitted.arranged), np.zeros(0)))
+        if not doubtful(none, False):
+            return State(fitted, unseen, replace(ranking(none, [none]), untried=before.ranking.untried), None)
+    found = rank(fitted.arranged, known, causes if changed else 1, kind=Together, last=changed)
+    return State(fitted, unseen, found, _predicted(found.baseline, unseen))
 
 
 def _predicted(one: Fit, unseen: Decks) -> Score | None:
