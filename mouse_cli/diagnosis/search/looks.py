@@ -30,7 +30,10 @@ class Looks:
 
     known: candidates by key; None: all. kind: of what a model with causes is made, of one structure or of its arrangements. begun:
     the same at the parameters where the search began; None: here. centres: what candidates do by themselves, and beside others.
+    finer: the same in all coordinates; None: these are all.
     """
+
+    finer: "Looks | None" = None
 
     def __init__(
         self,
@@ -46,6 +49,7 @@ class Looks:
         self._made: dict[str, list[Recipe]] = {}
         self._looked: dict[tuple, list[tuple[float, int, np.ndarray]]] = {}
         self._following: dict[tuple, tuple[np.ndarray, np.ndarray]] = {}
+        self._cut: dict[tuple, np.ndarray | float] = {}
 
     @property
     def alone(self) -> dict[str, Alone]:
@@ -151,7 +155,7 @@ class Looks:
         at = trial.point(before)
         if at is None or alone is None:
             return None
-        left = trial.glimpsed(before) if alone.glimpsed else at.residual
+        left = trial.glimpsed(before) if alone.glimpsed else at.residual + self._off(before, others)
         return None if left is None else (alone, left, before[: self.k], *self._adapted(before, others))
 
     def _glimpsed(self, name: str) -> Alone | None:
@@ -200,9 +204,30 @@ class Looks:
     def predicted(self, at: Point, before: np.ndarray = _NOWHERE, others: tuple[Recipe, ...] = ()) -> float:
         """The misfit that is left of `at` when the deck's parameters, and causes that are there `before`, adapt to first order."""
         T, adapted = self._adapted(before, others)
-        step = adapted @ np.concatenate([at.residual, at.x[: self.k]])
-        left, z = at.residual - T @ step, at.x[: self.k] + step[: self.k]
+        residual = at.residual + self._off(before, others)
+        step = adapted @ np.concatenate([residual, at.x[: self.k]])
+        left, z = residual - T @ step, at.x[: self.k] + step[: self.k]
         return float(left @ left + z @ z)
+
+    def _off(self, before: np.ndarray, others: tuple[Recipe, ...]) -> np.ndarray | float:
+        """What all coordinates leave (q,) where causes `others` are there `before`, less what these few leave: beside what shears,
+        or gives way, few coordinates err more than a partner does.
+        """
+        if self.finer is None:
+            return 0.0
+        key = (before.tobytes(), *((each.candidate.key, each.number) for each in others))
+        if key not in self._cut:
+            x = before if others else np.zeros(self.k)
+            at, few = self.finer.kind(self.finer.model, self.finer.own(others)).point(x), self.kind(self.model, others).point(x)
+            self._cut[key] = _difference(at, few)
+        return self._cut[key]
+
+
+def _difference(at: Point | None, few: Point | None) -> np.ndarray | float:
+    """Residual (q,) of a point less that of another, where both are of the same data, pair them alike and turn no modes; else 0."""
+    if at is None or few is None or len(at.residual) != len(few.residual) or at.turns or few.turns:
+        return 0.0
+    return at.residual - few.residual if np.array_equal(at.pairing, few.pairing) else 0.0
 
 
 def _key(name: str, before: np.ndarray, others: tuple[Recipe, ...]) -> tuple:

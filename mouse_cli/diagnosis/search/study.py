@@ -49,7 +49,9 @@ class Study(Looks):
         model = self.model.looked_at(_lowest)
         if model is self.model:
             return self
-        return Study(model, self.known, self.kind, None if self.begun is self else self.begun.coarse)
+        few = Study(model, self.known, self.kind, None if self.begun is self else self.begun.coarse)
+        few.finer = self
+        return few
 
     def approached(
         self, name: str, before: np.ndarray, beside: tuple[Recipe, ...], reach: float = np.inf

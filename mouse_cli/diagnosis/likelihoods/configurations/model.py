@@ -194,6 +194,11 @@ class Points(Left):
     residual: np.ndarray
 
     @property
+    def pairing(self) -> np.ndarray:
+        """Modes that the measured ones are, of one arrangement after another."""
+        return np.concatenate([at.modes for at in self.points])
+
+    @property
     def turns(self) -> tuple[Turn, ...]:
         """Those of each."""
         return tuple(turn for at in self.points for turn in at.turns)

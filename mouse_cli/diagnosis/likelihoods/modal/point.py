@@ -47,6 +47,11 @@ class Point(Left):
     turn: Turn | None = None
 
     @property
+    def pairing(self) -> np.ndarray:
+        """Modes (m,) that the measured ones are."""
+        return self.modes
+
+    @property
     def turns(self) -> tuple[Turn, ...]:
         """The one that there is."""
         return () if self.turn is None else (self.turn,)
