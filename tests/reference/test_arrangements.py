@@ -127,7 +127,7 @@ def test_what_did_not_change_may_be_held_out_too(tmp_path):
 
 
 def test_nothing_is_sought_behind_a_change_that_explains_all(tmp_path, monkeypatch):
-    """All sets of what changed were sought a second time beside the one that was named, only to be told that nothing is left."""
+    """All sets of what changed were sought a second time beside the one that was named, only to find that nothing remains."""
     ranked = []
     monkeypatch.setattr(diagnose, "rank", lambda *given, **more: ranked.append(given[0]) or rank(*given, **more))
     before = [deck(tmp_path, f"b{i}", p, frequencies(p, ITEM), i, ITEM) for i, p in enumerate(PLACES[:3])]

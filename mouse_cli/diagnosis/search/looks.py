@@ -210,8 +210,8 @@ class Looks:
         return float(left @ left + z @ z)
 
     def _off(self, before: np.ndarray, others: tuple[Recipe, ...]) -> np.ndarray | float:
-        """What all coordinates leave (q,) where causes `others` are there `before`, less what these few leave: beside what shears,
-        or gives way, few coordinates err more than a partner does.
+        """What all coordinates leave (q,) where causes `others` are there `before`, less what these few leave: beside shear, or a
+        flexible support, few coordinates err more than a partner does.
         """
         if self.finer is None:
             return 0.0

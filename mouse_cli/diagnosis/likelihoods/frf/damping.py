@@ -16,7 +16,7 @@ _UNEVEN = 0.5  # sd of ln of the damping of each mode over what the kinds make o
 _FAR = 8.0  # standard deviations beyond which damping does not change
 # Of the eigenvalue of the lowest measured mode, below which a mode has no strain that would lose anything
 _RIGID = 1e-6
-_ROUNDED, _FEW = 1e-12, 4  # of a matrix, what is rounding; its size over the rank up to which it is of low rank
+_ROUNDED = 1e-12  # of a matrix, what is rounding
 _SAME = 1e-6  # share of the damping below which what a deck states is like the rest
 
 
@@ -97,16 +97,9 @@ def of_low_rank(matrix: np.ndarray, scale: float | None = None) -> tuple[np.ndar
 
 
 def _range(matrix: np.ndarray) -> np.ndarray:
-    """Orthonormal columns (size, c) that span those of a symmetric matrix, found one by one; all where they are many."""
-    left, Q = matrix.copy(), np.zeros((len(matrix), 0))
-    least = _ROUNDED * np.abs(matrix).max(initial=0.0)
-    while np.abs(left).max(initial=0.0) > least:
-        if Q.shape[1] > len(matrix) // _FEW:
-            return np.eye(len(matrix))
-        q = left[:, np.argmax(np.einsum("ij,ij->j", left, left))]
-        for _ in range(2):  # of what is small beside what was taken out of it the first time leaves rounding
-            q = q - Q @ (Q.T @ q)
-            q = q / np.linalg.norm(q)
-        Q = np.column_stack([Q, q])
-        left -= np.outer(q, q @ left)
-    return Q
+    """Orthonormal columns (size, c) that span those of a symmetric matrix."""
+    from scipy.linalg import qr
+
+    Q, R, _ = qr(matrix, pivoting=True)
+    size = np.abs(R.diagonal())
+    return Q[:, size > _ROUNDED * size.max(initial=0.0)]

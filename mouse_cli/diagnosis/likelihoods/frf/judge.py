@@ -76,7 +76,7 @@ class Judge:
         return self.once(key, one, reach, lambda: self._fitted(one, law, most, damping, reach))
 
     def once(self, key: tuple, one: End, reach: float, do: Callable[[], Any]) -> Any:
-        """What `do` finds of `one`, which is kept beside it, so that no id is used again; anew where it was given up too early."""
+        """What `do` finds of `one`, kept beside it, so that no id is used again; found again where it was given up too early."""
         before = self._kept.get(key)
         if before is None or (reach > before[1] and not _ended(before[2], before[1])):
             before = self._kept[key] = one, reach, do()

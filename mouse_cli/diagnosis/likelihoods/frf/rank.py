@@ -106,7 +106,7 @@ class ByFunctions:
 
 
 def _weighed(judge: Judge, fits: list[Fit]) -> list[Fit]:
-    """`fits` where lines that say the same count once, and accuracies nobody stated are what is left."""
+    """`fits` where lines that say the same count once, and the residual gives the accuracies that nobody stated."""
     alike = None
     for _ in range(_WEIGHED):
         nearest = min(fits, key=lambda one: one.misfit)
