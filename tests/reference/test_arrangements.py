@@ -8,9 +8,12 @@ import pytest
 
 from mouse_cli.cli.main import _run
 from mouse_cli.diagnosis.likelihoods.configurations import diagnose
-from mouse_cli.diagnosis.likelihoods.configurations.model import Arranged, Together, common
+from mouse_cli.diagnosis.likelihoods.configurations.model import Arranged, Together
 from mouse_cli.diagnosis.likelihoods.configurations.predict import predicted
+from mouse_cli.diagnosis.likelihoods.configurations.shared import Errors
+from mouse_cli.diagnosis.likelihoods.configurations.shared import frequencies as of_frequencies
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
+from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.diagnosis.search.fit import fit
 from mouse_cli.diagnosis.search.rank import rank
 from mouse_cli.formats import read_deck
@@ -54,6 +57,48 @@ parameters:
 test:
   modes: {{frequency: {hz.tolist()}, frequency_sd: 0.05 %}}
 {more}""")
+    return str(path)
+
+
+SCATTER = np.array([4.0, -3.0, 2.5, -4.0, 1.5, 3.0, -2.0, 3.5]) / 100  # of each spring, which no parameter has
+SENSORS = (1, 3, 4, 6, 8)
+
+
+def measured(folder: Path, name: str, seed: int, lost: float = 0.0, at: int = 4, errors: float = 1.0) -> str:
+    """A deck whose model has eight like springs, with modes of a chain whose springs scatter; lost: share of spring `at`.
+
+    errors: times those of the test and the scatter.
+    """
+    springs = K * (1 + errors * SCATTER)
+    springs[at - 1] *= 1 - lost
+    beside = np.diag(springs[1:], 1)
+    values, shapes = np.linalg.eigh(np.diag(springs + np.append(springs[1:], 0.0)) - beside - beside.T)
+    rng = np.random.default_rng(seed)
+    hz = np.sqrt(values[:5] / MASS) / (2 * np.pi) * np.exp(errors * NOISE * rng.standard_normal(5))
+    seen = shapes[np.array(SENSORS) - 1, :5]
+    seen = (seen / np.abs(seen).max(axis=0) + errors * 0.005 * rng.standard_normal(seen.shape)).round(9)
+    path = folder / f"{name}.yaml"
+    path.write_text(f"""mouse: 1
+title: {name}
+units: SI
+model:
+  structure:
+    nodes: {{line: {{from: 0, to: {N}, start: [0, 0, 0], end: [{N}, 0, 0]}}}}
+    elements:
+      - {{id: 1-{N}, type: spring, nodes: 0-{N}, TX: {K}}}
+      - {{id: 11-{10 + N}, type: mass, nodes: 1-{N}, mass: {MASS}}}
+    supports: {{0: all}}
+    directions: [TX]
+parameters:
+  - {{name: k, elements: 1-{N}, property: TX, sd: 5 %}}
+test:
+  modes:
+    frequency: {hz.tolist()}
+    frequency_sd: 0.05 %
+    dofs: [{", ".join(f"{node}TX" for node in SENSORS)}]
+    shapes: {seen.tolist()}
+    shape_sd: 0.5 %
+""")
     return str(path)
 
 
@@ -137,6 +182,47 @@ def test_nothing_is_sought_behind_a_change_that_explains_all(tmp_path, monkeypat
     assert (code, cause["physics"], cause["site"]["text"], len(ranked)) == (1, "stiffness-loss", "spring 4", 1)
 
 
+@pytest.mark.parametrize(("lost", "at"), [(0.0, 4), (0.15, 3), (0.6, 6)])
+def test_what_changed_in_a_model_that_errs(tmp_path, lost, at):
+    """Springs scatter by some per cent, so that shapes err by ten times what sensors do, and alike before and after."""
+    before, after = measured(tmp_path, "before", 1), measured(tmp_path, "after", 2, lost, at)
+    out = tmp_path / "answer.json"
+    code = _run(["diagnose", before, "--changed", after, "--common-sd", "2", "-q", "--report", str(out), "--json"])
+    found = json.loads(out.read_text())
+    if not lost:
+        assert (code, found["verdict"]["kind"]) == (0, "nothing-missing")
+        return
+    (cause,) = found["verdict"]["causes"]
+    assert (code, cause["kind"], cause["physics"], cause["site"]["text"]) == (1, "named", "stiffness-loss", f"spring {at}")
+    (size,) = found["turns"][0]["candidates"][0]["parameters"]
+    assert abs(size["value"] - lost) < 3 * size["sd"] < 0.15
+
+
+def test_errors_of_one_model_move_what_it_predicts_as_they_should(tmp_path):
+    """Both before and after a spring loses half of its stiffness, by differences of exact solutions."""
+    problems = [read_deck(measured(tmp_path, *each, errors=0)) for each in (("before", 1), ("after", 1, 0.5))]
+    base = Arranged(tuple(reduced(each, each.prior.mean) for each in problems), 0.01, (False, True))
+    recipe = next(each for each in base.recipes(registry()["stiffness-loss"]) if each.site(each.grid[0]).text == "spring 4")
+    model = Together(base, (recipe,))
+    at = model.point(np.concatenate([np.zeros(1), recipe.coordinates(np.array([0.5]))]))
+    errors = Errors(model.modes(at), 0.01)
+    unit = np.random.default_rng(3).standard_normal((N, N)) * 1e-4
+    given, U = base.parts[0].eigenvalues, errors.U
+    i, j = np.triu_indices(N)
+    E = np.zeros((N, N))
+    E[i, j] = E[j, i] = unit[i, j] * np.sqrt(2 * given[i] * given[j]) * 0.01
+    E[np.diag_indices(N)] *= np.sqrt(2)
+    diagonal = np.flatnonzero((i == j) & (i < 5))  # frequencies of the five measured modes come first
+    order = np.concatenate([diagonal, np.setdiff1d(np.arange(len(i)), diagonal)])
+    for own, (one, point), part in zip(U, model.parts(at), base.parts, strict=True):
+        there = one.added(point.x)[0] + np.diag(given) + E
+        values, shapes = np.linalg.eigh(there)
+        shapes *= np.sign(np.einsum("ab,ab->b", shapes, point.X))
+        data = part.data
+        left, _ = data.residual(values[:5], part.sensing @ shapes[:, :5])
+        assert left - point.residual == pytest.approx(-own @ unit[i, j][order], abs=2e-3 * np.abs(own @ unit[i, j][order]).max())
+
+
 @pytest.fixture
 def arranged(tmp_path):
     problems = [read_deck(deck(tmp_path, f"e{i}", p, frequencies(p), i)) for i, p in enumerate(PLACES[:4])]
@@ -146,9 +232,9 @@ def arranged(tmp_path):
 
 def test_whitening_is_that_of_the_covariance(arranged):
     base, _ = arranged
-    U = base.common
+    U = np.vstack(base.errors.U)
     values = np.random.default_rng(1).standard_normal((len(U), 3))
-    white = base.whitened(values)
+    white = base.errors.whitened(values)
     assert white.T @ white == pytest.approx(values.T @ np.linalg.solve(np.eye(len(U)) + U @ U.T, values), rel=1e-10)
 
 
@@ -159,8 +245,8 @@ def test_predictions_are_those_of_the_joint_distribution(arranged):
     there = Together(held).point(one.point.x)
     modes = np.arange(1, 6)
     T = one.model.slopes(one.point)
-    U = np.vstack([common(part, modes, 0.003) for part in base.parts])
-    B = np.hstack([Together(held).slopes(there), np.vstack([common(part, modes, 0.003) for part in held.parts])])
+    U = np.vstack([of_frequencies(part, modes, 0.003) for part in base.parts])
+    B = np.hstack([Together(held).slopes(there), np.vstack([of_frequencies(part, modes, 0.003) for part in held.parts])])
     A = np.hstack([T, U])  # all unknowns N(0, 1) before the test, about z = 0
     r = np.concatenate([at.residual for at in one.point.points]) + T @ one.point.x  # linearised about z = 0
     h = there.points[0].residual + B[:, :1] @ one.point.x

@@ -1,6 +1,7 @@
 """Every candidate by itself; and the sets that first looks promise, where those that lead explain nothing."""
 
 from mouse_cli.diagnosis.gates import GATE, ODDS
+from mouse_cli.diagnosis.search.descents import idealised
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.diagnosis.search.found import Found, best_of, keep
 from mouse_cli.diagnosis.search.moves import added_up, adequate, exchanged, renamed
@@ -41,7 +42,7 @@ def _begin(study: Study, begun: Found, fits: list[Fit], most: int) -> None:
     elastic walls for such as turn, of which one beside two others is no better than it was.
     """
     added_up(study, 2, begun, fits)
-    if any(adequate(one, GATE) for one in begun.values()):
+    if any(adequate(idealised(one), GATE) for one in best_of(begun, 1)):
         return
     for name in study.known:
         for count in range(2, min(most, _MANY) + 1):

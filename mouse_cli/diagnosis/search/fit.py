@@ -100,6 +100,11 @@ class Fit(End):
         return self.model.base.data.dof - self.model.t - round(self.point.free)
 
     @property
+    def by_itself(self) -> float:
+        """Its log evidence without that of other places."""
+        return _evidence(self.misfit, self.hessian, self.model) - self.point.nats
+
+    @property
     def log_places(self) -> float:
         """ln of how many places its causes could be at for each that the data leave: by their prior, and of a place along a line by
         its range over its sd.

@@ -162,7 +162,7 @@ class Looks:
         """What a candidate does by itself where modes are close, whose angles cost more to find than the modes; None: none are."""
         bare, none = self.kind(self.model), np.zeros(self.k)
         at = bare.point(none)
-        if at is None or not at.turns or not isinstance(bare, Model):
+        if at is None or not at.turns or not hasattr(bare, "glimpsed"):
             return None
         seen = []
         for recipe in self.recipes(name):

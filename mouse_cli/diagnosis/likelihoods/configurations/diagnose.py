@@ -8,8 +8,10 @@ import numpy as np
 
 from mouse_cli._errors import DeckError
 from mouse_cli.diagnosis.extend.deck import in_its_units
+from mouse_cli.diagnosis.likelihoods.configurations.judged import by_leading
 from mouse_cli.diagnosis.likelihoods.configurations.model import Arranged, SharedRecipe, Together, lowest_of
 from mouse_cli.diagnosis.likelihoods.configurations.predict import predicted, shared_errors
+from mouse_cli.diagnosis.likelihoods.configurations.shared import Errors
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.mechanisms import Candidate, registry
 from mouse_cli.diagnosis.nameless.fit import field_of, rivals
@@ -39,22 +41,25 @@ _ALL = Choices()
 class Decks:
     """Decks (a,) of arrangements, and which of them have the causes that are sought.
 
-    common_sd: of ln f, of what theory errs in all of them alike, as a rule theory.configurations of the decks.
+    common_sd: of ln f, of what theory errs in all of them alike, as a rule theory.configurations of the decks. erring: what it
+    does in their models before anything was found; None: in these.
     """
 
     problems: tuple[Problem, ...]
     having: tuple[bool, ...]
     common_sd: float
+    erring: Errors | None = None
 
     @cached_property
     def arranged(self) -> Arranged:
         """As one model."""
-        parts = tuple(lowest_of(reduced(each, each.prior.mean)) for each in self.problems)
-        return Arranged(parts, self.common_sd, self.having)
+        pairs = zip(self.problems, self.having, strict=True)
+        parts = tuple(lowest_of(reduced(each, each.prior.mean), has) for each, has in pairs)
+        return Arranged(parts, self.common_sd, self.having, self.erring)
 
     def extended(self, one: Fit) -> "Decks":
         """The same with the mechanisms of a fit in them."""
-        found = self
+        found = replace(self, erring=self._errors(one))
         for recipe, own in zip(one.recipes, one.model.own, strict=True):
             found = found._with(recipe, one.c[own])
         return found
@@ -64,7 +69,18 @@ class Decks:
             return self
         own = len(self.problems[0].parameters)
         found = self.arranged.like(recipe).extended(self.problems, coordinates)
-        return replace(self, problems=tuple(in_its_units(each, own) for each in found))
+        problems = tuple(in_its_units(each, own) for each in found)
+        return replace(self, problems=problems)
+
+    def _errors(self, one: Fit) -> Errors | None:
+        """What theory errs in them with the mechanisms of a fit."""
+        if not self.problems:
+            return None
+        there = self.arranged.at(one.model.base.theta)
+        model = Together(there, tuple(there.like(recipe) for recipe in one.recipes))
+        at = model.point(one.point.x)
+        modes = at and model.modes(at)
+        return Errors(modes, self.common_sd) if modes else there.errors
 
 
 @dataclass(frozen=True)
@@ -160,7 +176,7 @@ def _state(
         none = uncrossed(fit(Together(fitted.arranged), np.zeros(0)))
         if not doubtful(none, False):
             return State(fitted, unseen, replace(ranking(none, [none]), untried=before.ranking.untried), None)
-    found = rank(fitted.arranged, known, causes if changed else 1, kind=Together, last=changed)
+    found = rank(fitted.arranged, known, causes if changed else 1, by_leading, kind=Together, last=changed)
     return State(fitted, unseen, found, _predicted(found.baseline, unseen))
 
 

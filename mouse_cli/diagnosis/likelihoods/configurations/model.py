@@ -1,20 +1,18 @@
 """Several arrangements of one structure as one model: parameters and causes are shared, and so is what theory errs in each mode.
 
-With the residual r_i of arrangement i, whitened by what its own test states, and an error e_n ~ N(0, tau^2) of ln f in mode n that
-is the same in every arrangement, r = U e / tau + noise, U_in = tau / sd_i: data of one mode are correlated. They are whitened by
-
-    (I + u u')^-1/2 = I - (1 - 1 / sqrt(1 + u'u)) u u' / u'u
-
-for each mode, u the column of U (Sherman and Morrison).
+With the residual r_i of arrangement i, whitened by what its own test states, and errors e ~ N(0, I) that are the same in every
+arrangement, r_i = U_i e + noise, see `shared`: data of all are correlated. They are whitened by (I + U U')^-1/2.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe
+from mouse_cli.diagnosis.likelihoods.configurations.shared import Errors, Modes
 from mouse_cli.diagnosis.likelihoods.modal.lowest import lowest
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.point import Left, Point
@@ -25,6 +23,7 @@ from mouse_cli.model.problem import Problem
 from mouse_cli.terms.further import with_parameters
 
 _COORDINATES, _TIMES = 36, 6  # coordinates of a configuration at least, and of the number of its highest measured mode
+_KEPT = 8  # models of arrangements without what is sought that are kept
 _LOOKED, _BESIDE = 4, 2  # arrangements that a first look is made at: with what is sought, and without
 
 
@@ -59,11 +58,17 @@ class SharedData:
 
 @dataclass(frozen=True)
 class Arranged:
-    """Reduced models (a,) of the arrangements; common_sd: tau, of ln f, in every mode; having (a,): which have what is sought."""
+    """Reduced models (a,) of the arrangements; common_sd: tau, of ln f, in every mode; having (a,): which have what is sought.
+
+    erring: what theory errs in all alike, of the models before anything that was found came into the decks; None: of these. slack:
+    by which ln of their density is lower for errors that are larger than those.
+    """
 
     parts: tuple[Reduced, ...]
     common_sd: float
     having: tuple[bool, ...]
+    erring: Errors | None = None
+    slack: float = 0.0
 
     @property
     def problem(self) -> Problem:
@@ -92,12 +97,13 @@ class Arranged:
     @cached_property
     def data(self) -> SharedData:
         """All tests together."""
-        return SharedData(sum(part.data.dof for part in self.parts), all(part.data.by_shape for part in self.parts))
+        by_shape = all(part.data.by_shape for part in self.parts)
+        return SharedData(sum(part.data.dof for part in self.parts), by_shape, self.slack)
 
     def each(self, do: Callable[[Reduced, bool], Reduced]) -> "Arranged":
         """What `do` makes of every configuration, and of whether it has what is sought."""
         pairs = zip(self.parts, self.having, strict=True)
-        return replace(self, parts=tuple(do(part, has) for part, has in pairs))
+        return replace(self, parts=tuple(do(part, has) for part, has in pairs), erring=self.errors)
 
     @property
     def nameless(self):
@@ -136,42 +142,48 @@ class Arranged:
         chosen = sorted({*few.tolist(), *np.flatnonzero(~np.array(self.having))[:_BESIDE].tolist()})
         parts = tuple(do(self.parts[i]) for i in chosen)
         same = len(parts) == len(self.parts) and all(a is b for a, b in zip(parts, self.parts, strict=True))
-        return self if same else replace(self, parts=parts, having=tuple(self.having[i] for i in chosen))
+        having, modes = (tuple(each[i] for i in chosen) for each in (self.having, self.errors.modes))
+        return self if same else replace(self, parts=parts, having=having, erring=Errors(modes, self.common_sd))
 
     def at(self, theta: np.ndarray) -> "Arranged":
         """The same at other values theta (p,) of the parameters."""
-        return replace(self, parts=tuple(lowest_of(part.at(theta)) for part in self.parts))
+        pairs = zip(self.parts, self.having, strict=True)
+        return replace(self, parts=tuple(lowest_of(part.at(theta), has) for part, has in pairs), erring=self.errors)
+
+    def without(self, i: int, x: np.ndarray, of: Callable[[Model, np.ndarray], Any]) -> Any:
+        """`of` arrangement number i, which has nothing of what is sought, at x (k + t,): the last are kept, for first looks at what
+        the others have are all made beside the same one.
+        """
+        z, kept = x[: self.L.shape[1]], self._kept
+        key = i, of, z.tobytes()
+        if key not in kept:
+            if len(kept) >= _KEPT:
+                del kept[next(iter(kept))]
+            kept[key] = of(Model(self.parts[i]), z)
+        return kept[key]
 
     @cached_property
-    def common(self) -> np.ndarray:
-        """U (q, modes): what the errors that arrangements share, in sd tau, do to the whitened data."""
-        numbers = [part.data.test.number for part in self.parts]
-        modes = np.unique(np.concatenate(numbers))
-        return np.vstack([common(part, modes, self.common_sd) for part in self.parts])
+    def _kept(self) -> dict[tuple, Any]:
+        return {}
 
-    def whitened(self, values: np.ndarray) -> np.ndarray:
-        """`values` (q,) or (q, .) of all arrangements, whitened for the errors that they share."""
-        size = (self.common**2).sum(axis=0)
-        by = (1 - 1 / np.sqrt(1 + size)) / np.maximum(size, 1e-300)
-        along = self.common.T @ values
-        return values - self.common @ (by * along.T).T
+    @cached_property
+    def errors(self) -> Errors:
+        """What theory errs in all alike: in the models of the decks as they were given."""
+        return Errors(tuple(map(Modes.of, self.parts)), self.common_sd) if self.erring is None else self.erring
+
+    def erring_as(self, modes: tuple[Modes, ...]) -> "Arranged":
+        """The same as theory errs in these modes, by as much more or less as ln |I + U U'| says."""
+        errors = Errors(modes, self.common_sd)
+        return replace(self, erring=errors, slack=self.slack + 0.5 * (errors.log_size - self.errors.log_size))
 
 
-def lowest_of(part: Reduced) -> Reduced:
-    """A configuration in its lowest coordinates, and those by which ends of lines turn: every fit solves all configurations.
+def lowest_of(part: Reduced, has: bool) -> Reduced:
+    """A configuration in its lowest coordinates, and, if it has what is sought, those by which ends of lines turn: every fit solves
+    all configurations.
 
     What the coordinates left out would add to a change of the highest measured mode n goes with (n / r)^4 of it.
     """
-    return lowest(part, max(_COORDINATES, _TIMES * int(part.data.test.number.max())))
-
-
-def common(part: Reduced, modes: np.ndarray, sd: float) -> np.ndarray:
-    """U (q, modes) of one arrangement: shapes are not concerned."""
-    data = part.data
-    rows = np.flatnonzero(data.has_frequency)
-    found = np.zeros((len(rows) + int(data.has_shape.sum()), len(modes)))
-    found[np.arange(len(rows)), np.searchsorted(modes, data.test.number[rows])] = sd / data.sd_log[rows]
-    return found
+    return lowest(part, max(_COORDINATES, _TIMES * int(part.data.test.number.max())), has)
 
 
 def _shared(each: tuple[Recipe | None, ...]) -> SharedRecipe:
@@ -219,18 +231,30 @@ class Together:
 
     def point(self, x: np.ndarray) -> Points | None:
         """All arrangements at x (k + t,); None where one is not physical."""
+        found = self._of_each(Model.point, x)
+        if found is None:
+            return None
+        residual = self.base.errors.whitened(np.concatenate([at.residual for at in found]))
+        return Points(x, tuple(at if at.x is x else replace(at, x=x) for at in found), residual)
+
+    def glimpsed(self, x: np.ndarray) -> np.ndarray | None:
+        """See `Model`, of all arrangements."""
+        found = self._of_each(Model.glimpsed, x)
+        return None if found is None else self.base.errors.whitened(np.concatenate(found))
+
+    def _of_each(self, of: Callable[[Model, np.ndarray], Any], x: np.ndarray) -> list | None:
+        """`of` all arrangements at x (k + t,); None where one is not physical."""
         found = []
-        for model in self.models:
-            at = model.point(x)
-            if at is None:
+        for i, model in enumerate(self.models):
+            own = of(model, x) if self.base.having[i] else self.base.without(i, x, of)
+            if own is None:
                 return None
-            found.append(at)
-        residual = self.base.whitened(np.concatenate([at.residual for at in found]))
-        return Points(x, tuple(found), residual)
+            found.append(own)
+        return found
 
     def jacobian(self, at: Points) -> np.ndarray:
         """d(prediction)/dx (q, k + t), whitened."""
-        return self.base.whitened(self.slopes(at))
+        return self.base.errors.whitened(self.slopes(at))
 
     def slopes(self, at: Points) -> np.ndarray:
         """The same, each arrangement whitened by itself alone."""
@@ -244,6 +268,16 @@ class Together:
         """Model and point of each arrangement."""
         return list(zip(self.models, at.points, strict=True))
 
-    def loosened(self, at: Points, share: float) -> None:
-        """None: what theory errs is in the errors that arrangements share."""
-        return None
+    def loosened(self, at: Points, share: float) -> "Together | None":
+        """The same as theory errs where the causes are, not without them; None where it errs in no model that several are.
+
+        What it errs in the causes is in the errors that arrangements share.
+        """
+        modes = self.modes(at) if self.recipes and self.base.errors.alike else None
+        return modes and Together(self.base.erring_as(modes), self.recipes)
+
+    def modes(self, at: Points) -> tuple[Modes, ...] | None:
+        """Modes of the models of which theory errs, as the causes have them at a point; None: they are in other models."""
+        pairs = zip(self.base.errors.modes, self.parts(at), strict=True)
+        found = [own.at(*there) for own, there in pairs]
+        return None if None in found else tuple(found)

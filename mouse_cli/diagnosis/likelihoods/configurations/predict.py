@@ -10,7 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli.diagnosis.likelihoods.configurations.model import Arranged, Together, common
+from mouse_cli.diagnosis.likelihoods.configurations.model import Arranged, Together
+from mouse_cli.diagnosis.likelihoods.configurations.shared import Errors, Modes
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.model.arrangements import SharedError
 from mouse_cli.model.diagnosis import Score
@@ -21,33 +22,35 @@ _COVERED = 1.6448536269514722  # standard deviations of a 90 % interval
 
 @dataclass(frozen=True)
 class Known:
-    """What a fit knows of its unknowns and of the shared errors of `modes` (m,): mean and covariance of (x - x_fit, e)."""
+    """What a fit knows of its unknowns and of the errors that are shared, the first of frequencies of `modes` (n,): mean and
+    covariance of (x - x_fit, e). U: see `shared`, of arrangements that it did not see.
+    """
 
     modes: np.ndarray
     mean: np.ndarray
     covariance: np.ndarray
+    U: list[np.ndarray]
 
 
-def known(one: Fit, further: np.ndarray) -> Known:
-    """What a fit of arrangements knows, of its modes and of the numbers `further` besides."""
+def known(one: Fit, further: tuple[Modes, ...] = ()) -> Known:
+    """What a fit of arrangements knows, of its errors and of those of `further` arrangements."""
     model, at, base = one.model, one.point, one.model.base
-    own = np.unique(np.concatenate([part.data.test.number for part in base.parts]))
-    modes = np.union1d(own, further)
-    A = np.hstack([model.slopes(at), np.vstack([common(part, modes, base.common_sd) for part in base.parts])])
+    errors, own = Errors((*base.errors.modes, *further), base.common_sd), len(base.parts)
+    U = errors.U
+    A = np.hstack([model.slopes(at), np.vstack(U[:own])])
     residual = np.concatenate([point.residual for point in at.points])
-    prior = np.concatenate([np.ones(model.k), 2 * np.pi / model.width**2, np.ones(len(modes))])
+    prior = np.concatenate([np.ones(model.k), 2 * np.pi / model.width**2, np.ones(U[0].shape[1])])
     held = np.zeros(len(prior))
     held[: model.k] = at.x[: model.k]
     covariance = np.linalg.inv(A.T @ A + np.diag(prior))
-    return Known(modes, covariance @ (A.T @ residual - held), covariance)
+    return Known(errors.numbers, covariance @ (A.T @ residual - held), covariance, U[own:])
 
 
 def shared_errors(one: Fit) -> tuple[SharedError, ...]:
     """What theory errs in each mode, as far as a fit tells."""
-    found, tau = known(one, np.zeros(0, int)), one.model.base.common_sd
-    first = len(found.mean) - len(found.modes)
-    sd = np.sqrt(np.diag(found.covariance))[first:]
-    parts = zip(found.modes, found.mean[first:], sd, strict=True)
+    found, tau, first = known(one), one.model.base.common_sd, len(one.point.x)
+    sd = np.sqrt(np.diag(found.covariance))
+    parts = zip(found.modes, found.mean[first:], sd[first:], strict=False)
     return tuple(SharedError(int(mode), float(tau * value), float(tau * width)) for mode, value, width in parts)
 
 
@@ -60,9 +63,8 @@ def predicted(one: Fit, held: Arranged) -> Score | None:
     if at is None:
         return None
     tests = [part.data.test for part in held.parts]
-    about = known(one, np.unique(np.concatenate([test.number for test in tests])))
-    own = [common(part, about.modes, held.common_sd) for part in held.parts]
-    B = np.hstack([model.slopes(at), np.vstack(own)])
+    about = known(one, model.modes(at) or held.errors.modes)
+    B = np.hstack([model.slopes(at), np.vstack(about.U)])
     left = np.concatenate([point.residual for point in at.points]) - B @ about.mean
     total = np.eye(len(left)) + B @ about.covariance @ B.T
     misfit = float(left @ np.linalg.solve(total, left))
