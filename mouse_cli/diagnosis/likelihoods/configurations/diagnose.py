@@ -8,11 +8,12 @@ import numpy as np
 
 from mouse_cli._errors import DeckError
 from mouse_cli.diagnosis.extend.deck import in_its_units
+from mouse_cli.diagnosis.extend.halves import halved
 from mouse_cli.diagnosis.likelihoods.configurations.judged import by_leading
 from mouse_cli.diagnosis.likelihoods.configurations.model import Arranged, SharedRecipe, Together, lowest_of
 from mouse_cli.diagnosis.likelihoods.configurations.predict import predicted, shared_errors
 from mouse_cli.diagnosis.likelihoods.configurations.shared import Errors
-from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
+from mouse_cli.diagnosis.likelihoods.modal.meshed import HALVINGS, Meshed, meshed
 from mouse_cli.diagnosis.mechanisms import Candidate, registry
 from mouse_cli.diagnosis.nameless.fit import field_of, rivals
 from mouse_cli.diagnosis.search.escape import uncrossed
@@ -53,9 +54,18 @@ class Decks:
     @cached_property
     def arranged(self) -> Arranged:
         """As one model."""
-        pairs = zip(self.problems, self.having, strict=True)
-        parts = tuple(lowest_of(reduced(each, each.prior.mean), has) for each, has in pairs)
+        pairs = zip(self.meshed, self.having, strict=True)
+        parts = tuple(lowest_of(each.model, has) for each, has in pairs)
         return Arranged(parts, self.common_sd, self.having, self.erring)
+
+    @cached_property
+    def meshed(self) -> tuple[Meshed, ...]:
+        """The model of each, corrected for its mesh."""
+        return tuple(meshed(each) for each in self.problems)
+
+    def halved(self) -> "Decks":
+        """The same on elements of half the length."""
+        return replace(self, problems=tuple(halved(each) for each in self.problems))
 
     def extended(self, one: Fit) -> "Decks":
         """The same with the mechanisms of a fit in them."""
@@ -104,6 +114,7 @@ def diagnose_arrangements(
     Raises DeckError when decks are no arrangements of one structure (MD690, MD691).
     """
     _check((*fitted.problems, *unseen.problems))
+    fitted, unseen, remarks = _on_short_elements(fitted, unseen)
     known = None if choices.candidates is None else {key: registry()[key] for key in choices.candidates}
     first = at = _state(fitted, unseen, known, choices.causes)
     turns: list[Turn] = []
@@ -119,7 +130,20 @@ def diagnose_arrangements(
         notice(f"{len(turns)}: {turn.best.title}")
         at = _state(at.fitted.extended(best), at.unseen.extended(best), known, choices.causes, at)
     held = _held_out(unseen.problems, first.before, at.before if turns else None)
-    return _answer(fitted, at, tuple(turns), held, refuted, choices)
+    return replace(_answer(fitted, at, tuple(turns), held, refuted, choices), remarks=remarks)
+
+
+def _on_short_elements(fitted: Decks, unseen: Decks) -> tuple[Decks, Decks, tuple[str, ...]]:
+    """Both on elements short enough for all of their tests, and what to say of it; see `begun`."""
+    said: tuple[str, ...] = ()
+    for _ in range(HALVINGS):
+        coarse = [own for decks in (fitted, unseen) for own in zip(decks.meshed, decks.problems, strict=True) if own[0].coarse]
+        if not coarse:
+            break
+        found, problem = coarse[0]
+        said += (found.said(problem),)
+        fitted, unseen = fitted.halved(), unseen.halved()
+    return fitted, unseen, said + tuple(dict.fromkeys(text for each in fitted.meshed for text in each.remarks))
 
 
 def _answer(

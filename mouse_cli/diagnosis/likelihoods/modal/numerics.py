@@ -35,6 +35,7 @@ class Numerics:
     """moved (m,): change of ln f of the modes `numbers` (m,), from 0, on a finer mesh with masses spread.
 
     sd (m,): of ln f, as measured. finer: what corrects the model for it; None: nothing does. above (m,): which it does not correct.
+    loose: beams that swing by themselves below most of these modes, which are left whole.
     """
 
     numbers: np.ndarray
@@ -42,6 +43,7 @@ class Numerics:
     sd: np.ndarray
     finer: Finer | None = None
     above: np.ndarray | None = None
+    loose: frozenset[int] = frozenset()
 
     @property
     def remarks(self) -> tuple[str, ...]:
@@ -98,12 +100,12 @@ def numerics(problem: Problem, theta: np.ndarray, numbers: np.ndarray, sd: np.nd
         return still
     finer = _Mesh(halved(problem), theta)
     swings = finer.swings(problem)
-    loose = {number for number, own in swings.items() if own < np.median(coarse.eigenvalues[numbers])}
+    loose = frozenset(number for number, own in swings.items() if own < np.median(coarse.eigenvalues[numbers]))
     limit = min((own for number, own in swings.items() if number not in loose), default=np.inf)
     if loose:
         finer = _Mesh(halved(problem, loose), theta)
     moved = coarse.moved(_Modes(finer, 2 * len(coarse.eigenvalues) + _BESIDE))[numbers]
-    found = Numerics(numbers, moved, sd)
+    found = Numerics(numbers, moved, sd, loose=loose)
     if not found.telling:
         return found
     by = inertia(problem, finer.problem, theta, limit)
