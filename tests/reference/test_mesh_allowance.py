@@ -1,12 +1,15 @@
 """What a coarse mesh does to frequencies is allowed for in models of any size; truth in closed form, and by Hermite elements."""
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
+from scipy.linalg import eigh
 
 from mouse_cli.diagnosis.diagnose import diagnose
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
+from mouse_cli.diagnosis.likelihoods.modal.meshed import meshed
 from mouse_cli.diagnosis.likelihoods.modal.numerics import numerics, refinable
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
@@ -187,6 +190,70 @@ test:
     model = replace(reduced(problem, problem.prior.mean), finer=found.finer)
     rates, _ = model.refined(model.eigenvalues, np.eye(model.r))
     assert np.sqrt(rates[0]) / (2 * np.pi) == pytest.approx(exact, rel=1e-3)
+
+
+FRAME, BRACES = (4.0e-3, 2.0e-5), ((1.0e-3, 6.0e-7), (1.0e-3, 9.0e-7))  # areas and second moments
+BARS = {(1, 3): FRAME, (2, 4): FRAME, (3, 4): FRAME, (1, 4): BRACES[0], (2, 3): BRACES[1]}
+LOAD = 4000.0  # kg, of each corner
+CORNERS = {1: (0.0, 0.0), 2: (4.0, 0.0), 3: (0.0, 3.0), 4: (4.0, 3.0)}
+
+
+def _portal(count: int, parts: int) -> tuple[np.ndarray, np.ndarray]:
+    """Frequencies (Hz) of a portal with slender diagonals and loads in its corners, of so many Hermite elements a bar; and shapes
+    at TX, TY of 3 and 4.
+    """
+    size = 3 * (4 + 5 * (parts - 1))
+    number, K, M = 4, np.zeros((size, size)), np.zeros((size, size))
+    for (a, b), (area, second) in BARS.items():
+        along = np.subtract(CORNERS[b], CORNERS[a])
+        h, (c, s) = np.hypot(*along) / parts, along / np.hypot(*along)
+        nodes = [a - 1, *range(number, number + parts - 1), b - 1]
+        number += parts - 1
+        T = np.kron(np.eye(2), [[c, s, 0], [-s, c, 0], [0, 0, 1]])
+        k, m, rod, bend = np.zeros((6, 6)), np.zeros((6, 6)), np.ix_([0, 3], [0, 3]), np.ix_([1, 2, 4, 5], [1, 2, 4, 5])
+        k[rod], m[rod] = E * area / h * np.array([[1, -1], [-1, 1]]), RHO * area * h / 6 * np.array([[2, 1], [1, 2]])
+        D = np.diag([1, h, 1, h])
+        k[bend] = E * second / h**3 * D @ [[12, 6, -12, 6], [6, 4, -6, 2], [-12, -6, 12, -6], [6, 2, -6, 4]] @ D
+        own = [[156, 22, 54, -13], [22, 4, 13, -3], [54, 13, 156, -22], [-13, -3, -22, 4]]
+        m[bend] = RHO * area * h / 420 * D @ own @ D
+        for i, j in pairwise(nodes):
+            at = np.r_[3 * i : 3 * i + 3, 3 * j : 3 * j + 3]
+            K[np.ix_(at, at)] += T.T @ k @ T
+            M[np.ix_(at, at)] += T.T @ m @ T
+    M[[6, 7, 9, 10], [6, 7, 9, 10]] += LOAD
+    values, shapes = eigh(K[6:, 6:], M[6:, 6:], subset_by_index=[0, count - 1])
+    return np.sqrt(values) / (2 * np.pi), shapes[[0, 1, 3, 4]]
+
+
+def test_members_that_swing_by_themselves_in_modes_that_were_measured_take_shorter_elements():
+    """Diagonals of one element have none of the modes below those of the frame, which its joints feel: no mechanism makes them."""
+    hz, shapes = _portal(3, 16)
+    shapes = shapes / np.abs(shapes).max(axis=0)
+    bars = "\n".join(
+        f"      - {{id: {i + 1}, type: beam, nodes: {list(nodes)}, E: {E}, A: {area}, density: {RHO}, Iz: {second}}}"
+        for i, (nodes, (area, second)) in enumerate(BARS.items())
+    )
+    text = f"""\
+mouse: 1
+model:
+  structure:
+    nodes: {{{", ".join(f"{node}: {list(at)}" for node, at in CORNERS.items())}}}
+    elements:
+{bars}
+      - {{id: 11-12, type: mass, nodes: [3, 4], mass: {LOAD}}}
+    supports: {{1: all, 2: all}}
+    plane: XY
+parameters:
+  - {{name: E, elements: 1-5, property: E, factor: true, sd: 2 %}}
+test:
+  modes: {{frequency: {hz.tolist()}, frequency_sd: 0.3 %, dofs: [3TX, 3TY, 4TX, 4TY], shapes: {shapes.tolist()}, shape_sd: 3 %}}
+"""
+    problem = assemble(yaml_deck.read(text, "portal.yaml"))
+    found = meshed(problem)
+    assert "modes of members by themselves" in found.coarse and "every beam is taken in two halves" in found.said(problem)
+    answer = diagnose(problem, choices=Choices(("shear", "member"), causes=1))
+    assert answer.kind == NOTHING
+    assert any("by themselves" in remark for remark in answer.remarks)
 
 
 def test_one_mode_above_the_swing_of_elements_does_not_leave_those_below_uncorrected():

@@ -28,6 +28,14 @@ def idealised(one: Fit) -> Fit:
     return one if loose is None else fit(loose, one.c, one.point.x[: one.model.k]) or one
 
 
+def plainer(one: Fit, study: Study) -> Fit:
+    """A fit by theory that errs, see `idealised`, without parts that only made up for what it errs."""
+    if one.data is study.model.data:
+        return one
+    found = pared(one, study)
+    return found if len(found.c) < len(one.c) else one
+
+
 def settled(one: Fit, study: Study) -> Fit:
     """The fit with no modes crosswise, and its causes weighed at the parameters that it found, not where the search began."""
     one = uncrossed(one)
@@ -53,7 +61,8 @@ def best(study: Study, name: str, reach: float = np.inf) -> Fit | None:
     """
     found, others = tried(study, name, (), np.zeros(study.k), _STARTS, reach=reach)
     apart = distinct([pared(one, study) for one in found])
-    return summed([settled(shifted(one), study) if one.misfit < reach else one for one in apart], reach, others)
+    whole = summed([settled(shifted(one), study) if one.misfit < reach else one for one in apart], reach, others)
+    return whole and plainer(whole, study)
 
 
 def tried(

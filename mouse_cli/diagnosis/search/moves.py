@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Recipe
-from mouse_cli.diagnosis.search.descents import settled, summed
+from mouse_cli.diagnosis.search.descents import plainer, settled, summed
 from mouse_cli.diagnosis.search.escape import shifted, tied, walked
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.found import Found, best_of, keep, key
@@ -47,7 +47,7 @@ def promised(before: Fit, after: Fit, steps: float) -> float:
 def finished(study: Study, found: Mapping[tuple[str, ...], Fit]) -> list[Fit]:
     """The best fitted to the end, their evidence summed over sites that are as good."""
     ended = [settled(walked(shifted(pared(one, study)), study), study) for one in best_of(found, _FINISHED)]
-    return [summed([one, *tied(one, study)]) for one in ended]
+    return [plainer(summed([one, *tied(one, study)]), study) for one in ended]
 
 
 def added_up(study: Study, count: int, found: Found, smaller: list[Fit], kind: str = "", most: int = _TOGETHER) -> None:

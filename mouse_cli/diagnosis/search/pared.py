@@ -19,7 +19,7 @@ def pared(one: Fit, study: Study) -> Fit:
 
 def _fewer(one: Fit, there: Study) -> Iterator[Fit]:
     """Fits of the same with one part less."""
-    own, k = there.own(one.recipes), one.model.k
+    own, k, base = there.own(one.recipes), one.model.k, there.model.judged_by(one.data)
     for j, recipe in enumerate(own):
         for i in range(len(recipe.parts)):
             rest = (*recipe.parts[:i], *recipe.parts[i + 1 :])
@@ -27,7 +27,7 @@ def _fewer(one: Fit, there: Study) -> Iterator[Fit]:
             each_has = len(recipe.unknowns) // len(recipe.parts)
             first = one.model.own[j].start + i * each_has
             c = np.delete(one.c, slice(first, first + each_has))
-            models = [there.kind(there.model, (*own[:j], each, *own[j + 1 :])) for each in known]
+            models = [there.kind(base, (*own[:j], each, *own[j + 1 :])) for each in known]
             yield from (again for model in models if (again := fit(model, c, one.point.x[:k])) is not None)
 
 

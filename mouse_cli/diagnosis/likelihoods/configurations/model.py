@@ -49,10 +49,14 @@ class SharedRecipe(Recipe):
 
 @dataclass(frozen=True)
 class SharedData:
-    """Data of all tests together. dof: their degrees of freedom; by_shape: modes of all are paired by shape."""
+    """Data of all tests together. dof: their degrees of freedom; by_shape: modes of all are paired by shape.
+
+    errors: what theory errs in all of them; slack: by which ln of their density is lower for errors that are larger than given.
+    """
 
     dof: int
     by_shape: bool
+    errors: Errors
     slack: float = 0.0
 
 
@@ -98,7 +102,7 @@ class Arranged:
     def data(self) -> SharedData:
         """All tests together."""
         by_shape = all(part.data.by_shape for part in self.parts)
-        return SharedData(sum(part.data.dof for part in self.parts), by_shape, self.slack)
+        return SharedData(sum(part.data.dof for part in self.parts), by_shape, self.errors, self.slack)
 
     def each(self, do: Callable[[Reduced, bool], Reduced]) -> "Arranged":
         """What `do` makes of every configuration, and of whether it has what is sought."""
@@ -116,8 +120,9 @@ class Arranged:
         return self.parts[self.having.index(True)]
 
     def judged_by(self, data: SharedData) -> "Arranged":
-        """Itself: accuracies of arrangements stay as their decks state them."""
-        return self
+        """The same by errors of other data; accuracies of the tests stay as their decks state them."""
+        same = data.errors is self.errors and data.slack == self.slack
+        return self if same else replace(self, erring=data.errors, slack=data.slack)
 
     def recipes(self, candidate: Candidate) -> list[SharedRecipe]:
         """What `candidate` can do to all arrangements alike; nothing where they differ in where it can act."""
