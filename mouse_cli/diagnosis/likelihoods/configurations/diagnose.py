@@ -195,13 +195,11 @@ def _state(
     before: the state with one mechanism less. Where sets of what changed were sought there, and the one that led leaves no more
     than noise, nothing that decks held out could confirm is sought again.
     """
-    changed = not all(fitted.having)
-    if changed and before is not None and not unseen.problems:
-        none = uncrossed(fit(Together(fitted.arranged), np.zeros(0)))
-        if not doubtful(none, False):
-            return State(fitted, unseen, replace(ranking(none, [none]), untried=before.ranking.untried), None)
+    changed, none = not all(fitted.having), uncrossed(fit(Together(fitted.arranged), np.zeros(0)))
+    if changed and before is not None and not unseen.problems and not doubtful(none, False):
+        return State(fitted, unseen, replace(ranking(none, [none]), untried=before.ranking.untried), None)
     found = rank(fitted.arranged, known, causes if changed else 1, by_leading, kind=Together, last=changed)
-    return State(fitted, unseen, found, _predicted(found.baseline, unseen))
+    return State(fitted, unseen, found, _predicted(none, unseen))
 
 
 def _predicted(one: Fit, unseen: Decks) -> Score | None:

@@ -35,7 +35,7 @@ class Known:
 def known(one: Fit, further: tuple[Modes, ...] = ()) -> Known:
     """What a fit of arrangements knows, of its errors and of those of `further` arrangements."""
     model, at, base = one.model, one.point, one.model.base
-    errors, own = Errors((*base.errors.modes, *further), base.common_sd), len(base.parts)
+    errors, own = Errors((*(model.modes(at) or base.errors.modes), *further), base.common_sd), len(base.parts)
     U = errors.U
     A = np.hstack([model.slopes(at), np.vstack(U[:own])])
     residual = np.concatenate([point.residual for point in at.points])
