@@ -1,10 +1,9 @@
 """Every candidate by itself; and the sets that first looks promise, where those that lead explain nothing."""
 
 from mouse_cli.diagnosis.gates import GATE, ODDS
-from mouse_cli.diagnosis.search.descents import idealised
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.diagnosis.search.found import Found, best_of, keep
-from mouse_cli.diagnosis.search.moves import added_up, adequate, exchanged, renamed
+from mouse_cli.diagnosis.search.moves import added_up, adequate, any_explains, exchanged, renamed
 from mouse_cli.diagnosis.search.optima import within
 from mouse_cli.diagnosis.search.parts import in_turn, promising, single
 from mouse_cli.diagnosis.search.study import Study
@@ -42,7 +41,7 @@ def _begin(study: Study, begun: Found, fits: list[Fit], most: int) -> None:
     elastic walls for such as turn, of which one beside two others is no better than it was.
     """
     added_up(study, 2, begun, fits)
-    if any(adequate(idealised(one), GATE) for one in best_of(begun, 1)):
+    if any_explains(begun, GATE):
         return
     for name in study.known:
         for count in range(2, min(most, _MANY) + 1):

@@ -85,6 +85,11 @@ class Fit(End):
         return False
 
     @property
+    def errs_alike(self) -> bool:
+        """Whether theory errs in several arrangements alike, by what depends on the mechanisms in them."""
+        return getattr(self.model, "errs_alike", False)
+
+    @property
     def nameless(self):
         """The field that the model has, a rival without a name; None: there is none."""
         return getattr(self.model.base, "nameless", None)

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Recipe
-from mouse_cli.diagnosis.search.descents import plainer, settled, summed
+from mouse_cli.diagnosis.search.descents import idealised, plainer, settled, summed
 from mouse_cli.diagnosis.search.escape import shifted, tied, walked
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.found import Found, best_of, keep, key
@@ -21,6 +21,7 @@ FAR_OF_SETS = 100.0  # as FAR, of sets: many are tried, and brief descents say e
 REACH = 6.0  # log evidence below that of the best from which on a set that is fitted in few steps is no rival of it
 ADEQUATE = 0.05  # p-value of the misfit below which what is left is no noise
 _SHARES = (0.15, 0.4, 0.65)  # of the sizes of a list, from which on sets are begun
+_NEARLY = 5.0  # times the degrees of freedom: a misfit up to which other errors of theory may make it noise
 _LESS = 2.0  # times the misfit that a mechanism promises, from which on another that promises more is no alias of it
 _LOOKED = 16  # candidates that promise most beside others, which alone are looked at
 _PARTNERS = 6  # of these those that a first look finds best, which alone are fitted
@@ -37,6 +38,19 @@ _LIMITS = (  # groups of which one is the other at an end of its range: a crack 
 def adequate(one: Fit, least: float = ADEQUATE) -> bool:
     """Whether what a fit leaves may be noise."""
     return upper_tail(one.misfit, max(one.dof, 1)) > least
+
+
+def explained(one: Fit, least: float = ADEQUATE) -> bool:
+    """The same by what theory errs with the mechanisms in it, where several arrangements share that."""
+    if adequate(one, least):
+        return True
+    near = one.errs_alike and one.misfit < _NEARLY * max(one.dof, 1)
+    return near and adequate(idealised(one), least)
+
+
+def any_explains(found: Found, least: float) -> bool:
+    """Whether one of those is adequate, or the best is by what theory errs with it."""
+    return any(adequate(one, least) for one in found.values()) or any(explained(one, least) for one in best_of(found, 1))
 
 
 def promised(before: Fit, after: Fit, steps: float) -> float:
@@ -92,8 +106,9 @@ def swap(study: Study, one: Fit, found: Found) -> None:
 
     Where the set leaves too much that may be the same mechanism at another site.
     """
+    good = explained(one)
     for i, recipe in enumerate(one.recipes):
-        own, moved = recipe.candidate, not adequate(one)
+        own, moved = recipe.candidate, not good
         alike = {own.group}.union(*(pair for pair in _LIMITS if own.group in pair))
         aliases = [name for name, each in study.known.items() if each.group in alike and (moved or name != own.key)]
         rest = without(one, i)
@@ -163,7 +178,7 @@ def exchanged(study: Study, one: Fit, names: tuple[str, ...] | None = None, leas
 
     names: candidates that may take a place; None: all. least: p-value of its misfit below which it does leave too much.
     """
-    for _ in range(_ROUNDS if not adequate(one, least) else 0):
+    for _ in range(_ROUNDS if not explained(one, least) else 0):
         before = one.log_evidence
         for i in range(len(one.recipes)):
             rest = without(one, i)

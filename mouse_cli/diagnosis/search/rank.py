@@ -24,6 +24,7 @@ from mouse_cli.diagnosis.search.alone import alone
 from mouse_cli.diagnosis.search.descents import settled
 from mouse_cli.diagnosis.search.disguised import disguised
 from mouse_cli.diagnosis.search.fit import Fit, fit
+from mouse_cli.diagnosis.search.found import Found
 from mouse_cli.diagnosis.search.grounded import one_tie
 from mouse_cli.diagnosis.search.levelled import levelled
 from mouse_cli.diagnosis.search.moves import adequate
@@ -189,6 +190,9 @@ def _ranked(study: Study, causes: int, by_all: Callable[[Ranking], Ranking], las
     entry = sum(doubt.probability for doubt in found.doubts if doubt.modes)
     if none > _IDLE and entry > _ENTRY and found.noise_scale <= NOISY:
         return replace(found, untried=_untried(study, singles))
+    if found.baseline.errs_alike and found.baseline.data is not baseline.data:
+        study, baseline, begun = study.judged_by(found.baseline.data), found.baseline, Found()
+        model, fits, singles = study.model, list(found.fits), [one for one in found.fits if one.recipes]
     if last and (none < _IDLE or not adequate(found.baseline, gates.GATE)):
         fits += rivals(model, baseline, kind, within([*fits, *begun.values()]))
     one_each = plain(one for one in found.fits if one.recipes)

@@ -18,6 +18,7 @@ from mouse_cli.diagnosis.search.moves import (
     REACH,
     added_up,
     adequate,
+    any_explains,
     beside,
     centred,
     exchanged,
@@ -181,7 +182,7 @@ def pairs(study: Study, singles: list[Fit], begun: Found | None = None) -> list[
     found = Found(begun)
     if not found:
         added_up(study, 2, found, singles)
-    explained = lambda: any(len(two.recipes) == 2 and adequate(two, GATE) for two in found.values())
+    explained = lambda: any_explains(_of(found, 2), GATE)
     if not explained():
         centred(study, leading[0])
     least = min(one.misfit for one in leading)

@@ -120,6 +120,10 @@ class Study(Looks):
         """Whether the causes of a fit can act where they do."""
         return all(text(recipe) in map(text, self.recipes(recipe.candidate.key)) for recipe in one.recipes)
 
+    def judged_by(self, data) -> "Study":
+        """The same by errors that theory has with what leads in it; what was looked at is of others."""
+        return Study(self.model.judged_by(data), self.known, self.kind)
+
     def about(self, one: Fit) -> "Study":
         """The same at parameters from which those of a fit differ by no more than a trifle.
 

@@ -278,8 +278,13 @@ class Together:
 
         What it errs in the causes is in the errors that arrangements share.
         """
-        modes = self.modes(at) if self.recipes and self.base.errors.alike else None
+        modes = self.modes(at) if self.recipes and self.errs_alike else None
         return modes and Together(self.base.erring_as(modes), self.recipes)
+
+    @property
+    def errs_alike(self) -> bool:
+        """Whether theory errs in several of them by one matrix."""
+        return bool(self.base.errors.alike)
 
     def modes(self, at: Points) -> tuple[Modes, ...] | None:
         """Modes of the models of which theory errs, as the causes have them at a point; None: they are in other models."""
