@@ -15,7 +15,7 @@ def of(nats: float, misfit: float, *names: str) -> SimpleNamespace:
     """A fit of so many mechanisms on 100 degrees of freedom."""
     recipes = tuple(SimpleNamespace(candidate=SimpleNamespace(key=name, group=GROUPS[name]), parts=()) for name in names)
     sites = (Site("node", ()),) * len(names)
-    return SimpleNamespace(log_evidence=nats, misfit=misfit, dof=100, recipes=recipes, sites=sites)
+    return SimpleNamespace(log_evidence=nats, misfit=misfit, dof=100, recipes=recipes, sites=sites, errs_alike=False)
 
 
 @pytest.fixture

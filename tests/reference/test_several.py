@@ -176,7 +176,7 @@ def test_a_pair_is_exchanged_that_leads_by_a_mechanism_which_is_none_of_it(monke
         for name in ("b", "c"):
             both = tuple(sorted((*key(first), name)))
             if both in best_of:
-                found[both] = SimpleNamespace(misfit=900.0, dof=100, model=None, **vars(of(best_of[both], *both)))
+                found[both] = SimpleNamespace(misfit=900.0, dof=100, model=None, errs_alike=False, **vars(of(best_of[both], *both)))
 
     alone = lambda one, i: of(-600.0, *(key(one)[:i] + key(one)[i + 1 :]))
     for name, stub in (("beside", beside), ("without", alone), ("swap", lambda *given: None)):
