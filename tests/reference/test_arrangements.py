@@ -37,8 +37,8 @@ def frequencies(places, item=0.0, ground=0.0, lost=0.0) -> np.ndarray:
     return np.sqrt(values[:5]) / (2 * np.pi)
 
 
-def deck(folder: Path, name: str, places, truth: np.ndarray, seed: int, item: float = 0.0, more: str = "") -> str:
-    hz = truth * np.exp(COMMON + NOISE * np.random.default_rng(seed).standard_normal(5))
+def written(folder: Path, name: str, sd: str, modes: str, items: str = "", more: str = "") -> str:
+    """A deck of eight like springs and masses, whose stiffness has that sd, with measured `modes`."""
     path = folder / f"{name}.yaml"
     path.write_text(f"""mouse: 1
 title: {name}
@@ -49,15 +49,20 @@ model:
     elements:
       - {{id: 1-{N}, type: spring, nodes: 0-{N}, TX: {K}}}
       - {{id: 11-{10 + N}, type: mass, nodes: 1-{N}, mass: {MASS}}}
-      - {{id: 21-22, type: mass, nodes: {list(places)}, mass: {item}}}
-    supports: {{0: all}}
+{items}    supports: {{0: all}}
     directions: [TX]
 parameters:
-  - {{name: k, elements: 1-{N}, property: TX, sd: 3 %}}
+  - {{name: k, elements: 1-{N}, property: TX, sd: {sd}}}
 test:
-  modes: {{frequency: {hz.tolist()}, frequency_sd: 0.05 %}}
+  modes: {{{modes}, frequency_sd: 0.05 %}}
 {more}""")
     return str(path)
+
+
+def deck(folder: Path, name: str, places, truth: np.ndarray, seed: int, item: float = 0.0, more: str = "") -> str:
+    hz = truth * np.exp(COMMON + NOISE * np.random.default_rng(seed).standard_normal(5))
+    items = f"      - {{id: 21-22, type: mass, nodes: {list(places)}, mass: {item}}}\n"
+    return written(folder, name, "3 %", f"frequency: {hz.tolist()}", items, more)
 
 
 SCATTER = np.array([4.0, -3.0, 2.5, -4.0, 1.5, 3.0, -2.0, 3.5]) / 100  # of each spring, which no parameter has
@@ -77,29 +82,9 @@ def measured(folder: Path, name: str, seed: int, lost: float = 0.0, at: int = 4,
     hz = np.sqrt(values[:5] / MASS) / (2 * np.pi) * np.exp(errors * NOISE * rng.standard_normal(5))
     seen = shapes[np.array(SENSORS) - 1, :5]
     seen = (seen / np.abs(seen).max(axis=0) + errors * 0.005 * rng.standard_normal(seen.shape)).round(9)
-    path = folder / f"{name}.yaml"
-    path.write_text(f"""mouse: 1
-title: {name}
-units: SI
-model:
-  structure:
-    nodes: {{line: {{from: 0, to: {N}, start: [0, 0, 0], end: [{N}, 0, 0]}}}}
-    elements:
-      - {{id: 1-{N}, type: spring, nodes: 0-{N}, TX: {K}}}
-      - {{id: 11-{10 + N}, type: mass, nodes: 1-{N}, mass: {MASS}}}
-    supports: {{0: all}}
-    directions: [TX]
-parameters:
-  - {{name: k, elements: 1-{N}, property: TX, sd: 5 %}}
-test:
-  modes:
-    frequency: {hz.tolist()}
-    frequency_sd: 0.05 %
-    dofs: [{", ".join(f"{node}TX" for node in SENSORS)}]
-    shapes: {seen.tolist()}
-    shape_sd: 0.5 %
-""")
-    return str(path)
+    dofs = ", ".join(f"{node}TX" for node in SENSORS)
+    modes = f"frequency: {hz.tolist()}, dofs: [{dofs}], shapes: {seen.tolist()}, shape_sd: 0.5 %"
+    return written(folder, name, "5 %", modes)
 
 
 def asked(folder: Path, *arguments: str) -> tuple[int, dict]:

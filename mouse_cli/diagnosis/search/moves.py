@@ -106,9 +106,9 @@ def swap(study: Study, one: Fit, found: Found) -> None:
 
     Where the set leaves too much that may be the same mechanism at another site.
     """
-    good = explained(one)
+    moved = not explained(one)
     for i, recipe in enumerate(one.recipes):
-        own, moved = recipe.candidate, not good
+        own = recipe.candidate
         alike = {own.group}.union(*(pair for pair in _LIMITS if own.group in pair))
         aliases = [name for name, each in study.known.items() if each.group in alike and (moved or name != own.key)]
         rest = without(one, i)

@@ -11,7 +11,7 @@ from mouse_cli.diagnosis.extend.deck import in_its_units
 from mouse_cli.diagnosis.extend.halves import halved
 from mouse_cli.diagnosis.likelihoods.configurations.judged import by_leading
 from mouse_cli.diagnosis.likelihoods.configurations.model import Arranged, SharedRecipe, Together, lowest_of
-from mouse_cli.diagnosis.likelihoods.configurations.predict import predicted, shared_errors
+from mouse_cli.diagnosis.likelihoods.configurations.predict import placed, predicted, shared_errors
 from mouse_cli.diagnosis.likelihoods.configurations.shared import Errors
 from mouse_cli.diagnosis.likelihoods.modal.meshed import HALVINGS, Meshed, meshed
 from mouse_cli.diagnosis.mechanisms import Candidate, registry
@@ -79,18 +79,15 @@ class Decks:
             return self
         own = len(self.problems[0].parameters)
         found = self.arranged.like(recipe).extended(self.problems, coordinates)
-        problems = tuple(in_its_units(each, own) for each in found)
-        return replace(self, problems=problems)
+        return replace(self, problems=tuple(in_its_units(each, own) for each in found))
 
     def _errors(self, one: Fit) -> Errors | None:
         """What theory errs in them with the mechanisms of a fit."""
         if not self.problems:
             return None
-        there = self.arranged.at(one.model.base.theta)
-        model = Together(there, tuple(there.like(recipe) for recipe in one.recipes))
-        at = model.point(one.point.x)
-        modes = at and model.modes(at)
-        return Errors(modes, self.common_sd) if modes else there.errors
+        there = placed(one, self.arranged)
+        modes = there and there[0].modes(there[1])
+        return Errors(modes, self.common_sd) if modes else self.arranged.errors
 
 
 @dataclass(frozen=True)

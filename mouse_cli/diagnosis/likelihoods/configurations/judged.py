@@ -23,9 +23,8 @@ def by_leading(found: Ranking) -> Ranking:
     if modes is None:
         return found
     errors = Errors(modes, base.common_sd)
-    baseline, *others = (
-        _judged(one, errors) for one in (found.baseline, *(one for one in found.fits if one is not found.baseline))
-    )
+    rest = [one for one in found.fits if one is not found.baseline]
+    baseline, *others = (_judged(one, errors) for one in (found.baseline, *rest))
     return found if baseline is None else ranking(baseline, [baseline, *(one for one in others if one is not None)])
 
 

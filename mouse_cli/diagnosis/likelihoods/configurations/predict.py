@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli.diagnosis.likelihoods.configurations.model import Arranged, Together
+from mouse_cli.diagnosis.likelihoods.configurations.model import Arranged, Points, Together
 from mouse_cli.diagnosis.likelihoods.configurations.shared import Errors, Modes
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.model.arrangements import SharedError
@@ -54,14 +54,21 @@ def shared_errors(one: Fit) -> tuple[SharedError, ...]:
     return tuple(SharedError(int(mode), float(tau * value), float(tau * width)) for mode, value, width in parts)
 
 
-def predicted(one: Fit, held: Arranged) -> Score | None:
-    """How a fit predicts the arrangements `held`; None where its causes have no place, or are not physical there."""
-    there = held.at(one.model.base.theta)
+def placed(one: Fit, others: Arranged) -> tuple[Together, Points] | None:
+    """Other arrangements with the causes of a fit, where it has them; None where they have no place, or are not physical."""
+    there = others.at(one.model.base.theta)
     recipes = tuple(there.like(recipe) for recipe in one.recipes)
     model = None if None in recipes else Together(there, recipes)
     at = model and model.point(one.point.x)
-    if at is None:
+    return None if at is None else (model, at)
+
+
+def predicted(one: Fit, held: Arranged) -> Score | None:
+    """How a fit predicts the arrangements `held`; None where it has no place in them."""
+    there = placed(one, held)
+    if there is None:
         return None
+    model, at = there
     tests = [part.data.test for part in held.parts]
     about = known(one, model.modes(at) or held.errors.modes)
     B = np.hstack([model.slopes(at), np.vstack(about.U)])

@@ -60,9 +60,7 @@ class Modes:
             return None
         k = max(len(self.eigenvalues), int(point.modes.max()) + 1)
         motion, own = V @ model.moved(point.X)[:, :k], point.eigenvalues[:k]
-        return replace(
-            self, eigenvalues=own, motion=motion, seen=point.seen[:, :k], which=point.modes, origin=self.given
-        )
+        return replace(self, eigenvalues=own, motion=motion, seen=point.seen[:, :k], which=point.modes, origin=self.given)
 
     @property
     def given(self) -> "Modes":
@@ -157,9 +155,8 @@ def _known(group: list[Modes], numbers: np.ndarray) -> dict[int, int]:
     first = group[0].given
     for own in group:
         nearest = np.abs(own.within(first)[:, own.which]).argmax(axis=0)
-        for mode, place in zip(
-            nearest.tolist(), np.searchsorted(numbers, own.part.data.test.number).tolist(), strict=True
-        ):
+        places = np.searchsorted(numbers, own.part.data.test.number)
+        for mode, place in zip(nearest.tolist(), places.tolist(), strict=True):
             if mode not in found and place not in found.values():
                 found[mode] = place
     return found
