@@ -26,6 +26,21 @@ def laplace(misfit: float, hessian: np.ndarray, width: np.ndarray) -> float:
     return float(-0.5 * misfit - np.log(width).sum() + 0.5 * len(width) * np.log(2 * np.pi) - 0.5 * size)
 
 
+def at_ends(left: np.ndarray, hessian: np.ndarray, width: np.ndarray, share: np.ndarray) -> float:
+    """What ln Z gains where prior is at the upper ends of ranges too, a `share` (d,) of each of the last d unknowns, `left` (d,)
+    below the end at its most probable value.
+
+    Evidence at a point of a range is evidence over the range times posterior over prior density there (Dickey, Annals of
+    Mathematical Statistics 42, 1971); unknowns are taken one by one.
+    """
+    at = np.flatnonzero(share)
+    if not len(at):
+        return 0.0
+    sd = np.sqrt(np.diag(np.linalg.inv(capped(hessian, width)))[len(hessian) - len(width) + at])
+    ln_ratio = np.log(width[at] / (np.sqrt(2 * np.pi) * sd)) - 0.5 * (left[at] / sd) ** 2
+    return float(np.logaddexp(np.log1p(-share[at]), np.log(share[at]) + ln_ratio).sum())
+
+
 def marginal(residual: np.ndarray, root: np.ndarray) -> tuple[float, float]:
     """Chi-square of `residual` (n,) ~ N(0, I + B B') and ln |I + B B'|, with B = `root` (n, d).
 

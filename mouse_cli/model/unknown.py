@@ -8,13 +8,16 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Unknown:
-    """A parameter, uniform before the test over its range, or its logarithm is (`log`)."""
+    """A parameter, uniform before the test over its range, or its logarithm is (`log`); but for `at_end`, a share of its prior at
+    the upper end: a part that has lost something may be gone.
+    """
 
     name: str
     unit: str
     lower: float
     upper: float
     log: bool = True
+    at_end: float = 0.0
 
     @cached_property
     def bounds(self) -> tuple[float, float]:

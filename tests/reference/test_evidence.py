@@ -76,6 +76,19 @@ def test_of_two_unknowns_it_is_their_integral(linear):
     assert one.log_evidence == pytest.approx(np.log(Z) - 50 - np.log(model.width).sum(), abs=5e-3)
 
 
+@pytest.mark.parametrize("sds", [0.0, 1.0, 3.0, 50.0])
+def test_a_share_of_the_prior_at_the_end_of_a_range_adds_what_the_data_say_there(linear, sds):
+    """The end so many sd above what the data say; that the range ends there is nothing that Laplace's method knows."""
+    model = linear(1)
+    free = fit(model, np.zeros(1))
+    end = free.c[0] + sds * np.sqrt(free.covariance[-1, -1])
+    model.bounds = np.array([[end - model.width[0], end]])
+    model.recipes = (SimpleNamespace(log_prior=0.0, unknowns=(SimpleNamespace(at_end=0.25),)),)
+    Z, _ = quad(lambda c: np.exp(exact(model, np.array([c]))), -60.0, 60.0, points=[free.c[0]], limit=300)
+    whole = 0.75 * Z / model.width[0] + 0.25 * np.exp(exact(model, np.array([end])))
+    assert fit(model, free.c).log_evidence == pytest.approx(np.log(whole), abs=5e-3)
+
+
 def test_what_the_data_do_not_feel_leaves_it_as_it_is():
     hessian = np.diag([5.0, 3.0])
     wider = np.diag([5.0, 3.0, 0.0])

@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, product, proportional, steps
+from mouse_cli.diagnosis.effects.change import LOST, WHOLLY, Change, Recipe, Unknown, product, proportional, steps
 from mouse_cli.diagnosis.extend.matrices import NOTHING, Entries, with_entries, with_part_left
 from mouse_cli.diagnosis.extend.points import found as new_parameter
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
@@ -18,9 +18,9 @@ from mouse_cli.model.revision import DENSITY_TIMES, E_TIMES, GONE, MASS_GAINED, 
 # Share lost of a set that is missing: a thousandth of a stiff plate still holds what it is fastened to, and of a slender part less
 # than 1e-8 is lost in the 14 digits of a solver's file.
 _GONE = 1 - 1e-7
-_MISSING, _HEAVIER = Unknown("share lost", "1", 0.02, _GONE), Unknown("share gained", "1", 0.02, 20.0)
-LIGHTER = Unknown("share lost", "1", 0.02, 0.99)
-_AS_A_WHOLE = Unknown("share lost", "1", 1 - GONE, _GONE)  # of what is lost without it
+_MISSING, _HEAVIER = Unknown(LOST, "1", 0.02, _GONE, at_end=WHOLLY), Unknown("share gained", "1", 0.02, 20.0)
+LIGHTER = Unknown(LOST, "1", 0.02, 0.99)
+_AS_A_WHOLE = Unknown(LOST, "1", 1 - GONE, _GONE)  # of what is lost without it
 # Of E and density, over those of the deck: from foam or a plastic for steel to the other way round.
 _STIFFER = Unknown("stiffness over that of the deck", "1", 0.02, 50.0)
 _DENSER = Unknown("mass over that of the deck", "1", 0.05, 20.0)

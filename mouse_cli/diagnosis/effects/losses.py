@@ -5,7 +5,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from mouse_cli.diagnosis.effects import element_sets
-from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown
+from mouse_cli.diagnosis.effects.change import LOST, WHOLLY, Change, Recipe, Unknown
 from mouse_cli.diagnosis.effects.rows import runs
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.extend.matrices import Entries, of_matrices, with_entries
@@ -25,8 +25,7 @@ _MOST, _RUNS = 60, 240  # places, and runs of them in a row, that are looked at:
 _FEW = 12  # directions of them that a search in few coordinates knows to soften
 _STIFF = {"rod": ("E",), "spring": DIRECTIONS, "storey": DIRECTIONS, "joint": DIRECTIONS}
 _BEGIN, _GAINS = (0.1, 0.5, 0.9), (0.1, 1.0, 8.0)  # shares to begin from: what is left of a stiffness counts
-LOST = "share lost"
-_LOST, _GAINED = Unknown(LOST, "1", 0.02, 0.999), Unknown("share gained", "1", 0.02, 20.0)  # a lost one is as good as missing
+_LOST, _GAINED = Unknown(LOST, "1", 0.02, 0.999, at_end=WHOLLY), Unknown("share gained", "1", 0.02, 20.0)
 
 
 def of_elements(model: Reduced, candidate: Candidate, sign: int = -1, directed: bool = False) -> list[Recipe]:

@@ -7,9 +7,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.effects.change import LOST, WHOLLY, Change, Recipe, Unknown, steps
 from mouse_cli.diagnosis.effects.element_sets import missing
-from mouse_cli.diagnosis.effects.losses import LOST, matrices_of
+from mouse_cli.diagnosis.effects.losses import matrices_of
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
@@ -18,6 +18,7 @@ from mouse_cli.diagnosis.sites.left_out import loaded
 from mouse_cli.diagnosis.sites.members import ONE, SLENDER, Member, members
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.problem import Problem
+from mouse_cli.model.revision import GONE
 
 _MOST = 240  # members that are looked at: those that hold most energy in the lowest modes
 _HELD = 1e-6  # share of the energy of a mode below which a member has no part in it
@@ -26,7 +27,7 @@ _TELLS = 0.01  # share of an eigenvalue that is lost with such a member, at leas
 _LOST, _GAINED = Unknown(LOST, "1", 0.02, 0.99), Unknown("share gained", "1", 0.02, 20.0)
 # Of a member that is missing, its mass alike: a hundredth of a diagonal is as stiff as the chords that do what it did, and what is
 # left of it hardly is a tuned mass in members like it, whose modes it splits by the root of its mass over theirs.
-_GONE = Unknown(LOST, "1", 0.02, 1 - 1e-7)
+_GONE = Unknown(LOST, "1", 0.02, 1 - 1e-7, at_end=WHOLLY)
 _STIFF = {"beam": ("E",), "rod": ("E",), "storey": DIRECTIONS}
 # Share of a member lost with its mass up to which what the coordinates leave out of it follows: it has inertia, by which what the
 # member holds alone swings as before however little of it is left, and static it would all but stand still.
@@ -175,6 +176,7 @@ def _recipe(
         lambda values: site,
         log_prior=share,
         extend=extend,
+        title=lambda values: "a missing member" if values[0] > 1 - GONE and M is not None and sign < 0 else "",
     )
 
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Recipe, Unknown, proportional
-from mouse_cli.diagnosis.effects.losses import LOST, matrices_of
+from mouse_cli.diagnosis.effects.change import LOST, WHOLLY, Recipe, Unknown, proportional
+from mouse_cli.diagnosis.effects.losses import matrices_of
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
@@ -11,7 +11,7 @@ from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.elements.mass import INERTIA, PRODUCTS
 
-_SHARE = Unknown(LOST, "1", 0.02, 0.99)
+_SHARE = Unknown(LOST, "1", 0.02, 0.99, at_end=WHOLLY)
 _OWN = ("mass", *INERTIA, *PRODUCTS)
 
 

@@ -11,7 +11,7 @@ from typing import ClassVar
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import PLACE, Recipe
-from mouse_cli.diagnosis.evidence import capped, laplace
+from mouse_cli.diagnosis.evidence import at_ends, capped, laplace
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.model.site import Site
@@ -107,7 +107,7 @@ class Fit(End):
     @property
     def by_itself(self) -> float:
         """Its log evidence without that of other places."""
-        return _evidence(self.misfit, self.hessian, self.model) - self.point.nats
+        return _evidence(self, self.hessian) - self.point.nats
 
     @property
     def log_places(self) -> float:
@@ -148,7 +148,7 @@ def fit(
     if end is None:
         return None
     H = normal(model, end.point)[0] if H is None else H
-    return Fit(model, end.point, end.misfit, H, _evidence(end.misfit, H, model) - end.point.nats)
+    return Fit(model, end.point, end.misfit, H, _evidence(end, H) - end.point.nats)
 
 
 def descended(
@@ -235,6 +235,9 @@ def _step(H, slope, damping, scale, x, lower, upper) -> np.ndarray:
     return np.where(held, 0.0, np.linalg.solve(A, np.where(held, 0.0, slope)))
 
 
-def _evidence(J: float, H: np.ndarray, model: Model) -> float:
-    places = sum(recipe.log_prior for recipe in model.recipes)
-    return laplace(J, H, model.width) + places - model.base.data.slack
+def _evidence(end: End, H: np.ndarray) -> float:
+    """ln Z at the end of a search, without what angles between close modes take of it."""
+    model, share = end.model, np.array([u.at_end for recipe in end.recipes for u in recipe.unknowns])
+    places = sum(recipe.log_prior for recipe in end.recipes)
+    gone = at_ends(model.bounds[:, 1] - end.c, H, model.width, share)
+    return laplace(end.misfit, H, model.width) + gone + places - model.base.data.slack

@@ -8,8 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import Recipe, Unknown
-from mouse_cli.diagnosis.effects.losses import LOST
+from mouse_cli.diagnosis.effects.change import LOST, Recipe, Unknown
 from mouse_cli.diagnosis.likelihoods.frf.extend import with_loss, with_loss_of_the_rest
 from mouse_cli.model.problem import Problem
 
