@@ -23,6 +23,7 @@ from mouse_cli.model.diagnosis import (
     members,
 )
 from mouse_cli.model.groups import leading
+from mouse_cli.model.prediction import REFUTED
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.theory import Theory
 
@@ -86,6 +87,20 @@ class SharedError:
 
 
 @dataclass(frozen=True)
+class Compared:
+    """Tests before and after, each beside the other: chi-square on dof, and the probability p of a difference so large by noise."""
+
+    chi2: float
+    dof: int
+    p: float
+
+    @property
+    def alike(self) -> bool:
+        """Whether they differ by no more than noise."""
+        return self.p > REFUTED
+
+
+@dataclass(frozen=True)
 class ArrangementsDiagnosis(Shown):
     """The answer for several arrangements of one structure.
 
@@ -94,7 +109,7 @@ class ArrangementsDiagnosis(Shown):
     told. chi2 on dof with probability p: what is left with all of them. values, sd (q,): of the parameters of the extended decks.
     rest: what was tried beside all of them and is not demanded, that without a further cause first. held_out: arrangements that no
     fit has seen, before the first cause and after the last. field: physics without a name where the answer is UNKNOWN; untried:
-    candidates left out.
+    candidates left out. tests: those before and after, each beside the other; None where they cannot be compared.
     """
 
     problems: tuple[Problem, ...]
@@ -116,6 +131,7 @@ class ArrangementsDiagnosis(Shown):
     remarks: tuple[str, ...] = ()
     field: Field | None = None
     untried: tuple[Untried, ...] = ()
+    tests: Compared | None = None
 
     @property
     def problem(self) -> Problem:
@@ -129,12 +145,22 @@ class ArrangementsDiagnosis(Shown):
 
     @property
     def kind(self) -> str:
-        """NOTHING is missing; NAMED, every cause; ONE_OF, some cause is not settled; UNKNOWN, more is left than noise."""
+        """NOTHING is missing; NAMED, every cause; ONE_OF, some cause is not settled; UNKNOWN, more is left than noise.
+
+        Of what changed nothing is missing where the tests before and after are alike, whatever the model leaves of both.
+        """
+        if self.unchanged:
+            return NOTHING
         if not self.adequate:
             return UNKNOWN
         if not self.turns:
             return NOTHING
         return NAMED if all(turn.kind == NAMED for turn in self.turns) else ONE_OF
+
+    @property
+    def unchanged(self) -> bool:
+        """Whether the tests say by themselves that nothing has changed that they could show."""
+        return self.tests is not None and self.tests.alike and not self.turns
 
     @property
     def remaining(self) -> Rest | None:

@@ -32,6 +32,7 @@ def document(found: ArrangementsDiagnosis) -> dict[str, Any]:
         "turns": [_turn(turn, found.kind != UNKNOWN) for turn in found.turns],
         "rest": [candidate(found.rest[0], one, found.kind != UNKNOWN) for one in found.rest],
         "residual": fields(found, "chi2", "dof", "p"),
+        "tests": None if found.tests is None else fields(found.tests, "chi2", "dof", "p"),
         "parameters": [
             {"name": p.name, "unit": p.unit, "prior": p.nominal, "posterior": value, "sd": sd}
             for p, value, sd in zip(parameters, found.values, found.sd, strict=True)

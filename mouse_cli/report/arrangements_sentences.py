@@ -1,5 +1,7 @@
 """The verdict on several configurations of a structure in sentences: the same in printout, JSON document and page."""
 
+from collections.abc import Iterator
+
 from mouse_cli._texts import capital
 from mouse_cli.model.arrangements import ArrangementsDiagnosis, Turn
 from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, UNKNOWN
@@ -7,6 +9,7 @@ from mouse_cli.report.field_words import field_sentences
 from mouse_cli.report.sections._diagnosis_wording import (
     grouped,
     nats,
+    p_value,
     probable,
     rivals_of_site,
     sized,
@@ -28,13 +31,24 @@ _EVEN = 0.5  # probability of no mechanism up to which one is called likely
 
 def sentences(found: ArrangementsDiagnosis) -> tuple[str, ...]:
     """What was found, then one paragraph a mechanism in the order of its identification."""
-    first = [_VERDICTS[found.kind]]
+    first = list(_unchanged(found)) if found.unchanged else [_VERDICTS[found.kind]]
     if found.kind == UNKNOWN and found.field is not None:
         first = list(field_sentences(found.field))
     elif found.remaining is not None:
         first.append(f"None of the following is proved: with all of it in the model {remains(found.remaining)}.")
     steps = [f"{number}. {_step(turn, found.kind != UNKNOWN)}" for number, turn in enumerate(found.turns, 1)]
     return (*first, *steps)
+
+
+def _unchanged(found: ArrangementsDiagnosis) -> Iterator[str]:
+    """That the tests are alike; and that the model explains neither, where it does not."""
+    tests = found.tests
+    yield (
+        "Nothing has changed that these tests could show: before and after they differ by no more than noise (chi-square "
+        f"{tests.chi2:.1f} on {tests.dof}, {p_value(tests.p)} of the largest difference)."
+    )
+    if not found.adequate:
+        yield "The model explains neither: diagnose the state before by itself, and do not trust the revised parameters."
 
 
 def _step(turn: Turn, explains: bool) -> str:

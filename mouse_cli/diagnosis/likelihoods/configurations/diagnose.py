@@ -6,9 +6,10 @@ from functools import cached_property
 
 import numpy as np
 
-from mouse_cli._errors import DeckError
 from mouse_cli.diagnosis.extend.deck import in_its_units
 from mouse_cli.diagnosis.extend.halves import halved
+from mouse_cli.diagnosis.likelihoods.configurations.checked import checked
+from mouse_cli.diagnosis.likelihoods.configurations.compared import compared
 from mouse_cli.diagnosis.likelihoods.configurations.judged import by_leading
 from mouse_cli.diagnosis.likelihoods.configurations.model import Arranged, SharedRecipe, Together, lowest_of
 from mouse_cli.diagnosis.likelihoods.configurations.predict import placed, predicted, shared_errors
@@ -30,7 +31,7 @@ from mouse_cli.diagnosis.verdict import (
     leader,
     sure,
 )
-from mouse_cli.model.arrangements import ArrangementsDiagnosis, Turn
+from mouse_cli.model.arrangements import ArrangementsDiagnosis, Compared, Turn
 from mouse_cli.model.diagnosis import BY_DECK, NAMED, ONE_OF, Choices, Field, HeldOut, Score
 from mouse_cli.model.problem import Problem
 
@@ -92,12 +93,16 @@ class Decks:
 
 @dataclass(frozen=True)
 class State:
-    """Decks with the causes that were told so far, those held out among them, and what further candidates make of them."""
+    """Decks with the causes that were told so far, those held out among them, and what further candidates make of them.
+
+    tests: those before and after, each beside the other, where no cause was told yet.
+    """
 
     fitted: Decks
     unseen: Decks
     ranking: Ranking
     before: Score | None
+    tests: Compared | None = None
 
 
 def diagnose_arrangements(
@@ -110,7 +115,7 @@ def diagnose_arrangements(
 
     Raises DeckError when decks are no arrangements of one structure (MD690, MD691).
     """
-    _check((*fitted.problems, *unseen.problems))
+    checked((*fitted.problems, *unseen.problems))
     fitted, unseen, remarks = _on_short_elements(fitted, unseen)
     known = None if choices.candidates is None else {key: registry()[key] for key in choices.candidates}
     first = at = _state(fitted, unseen, known, choices.causes)
@@ -127,7 +132,7 @@ def diagnose_arrangements(
         notice(f"{len(turns)}: {turn.best.title}")
         at = _state(at.fitted.extended(best), at.unseen.extended(best), known, choices.causes, at)
     held = _held_out(unseen.problems, first.before, at.before if turns else None)
-    return replace(_answer(fitted, at, tuple(turns), held, refuted, choices), remarks=remarks)
+    return replace(_answer(fitted, first.tests, at, tuple(turns), held, refuted, choices), remarks=remarks)
 
 
 def _on_short_elements(fitted: Decks, unseen: Decks) -> tuple[Decks, Decks, tuple[str, ...]]:
@@ -144,15 +149,21 @@ def _on_short_elements(fitted: Decks, unseen: Decks) -> tuple[Decks, Decks, tupl
 
 
 def _answer(
-    fitted: Decks, at: State, turns: tuple[Turn, ...], held: HeldOut | None, refuted: str, choices: Choices
+    fitted: Decks,
+    tests: Compared | None,
+    at: State,
+    turns: tuple[Turn, ...],
+    held: HeldOut | None,
+    refuted: str,
+    choices: Choices,
 ) -> ArrangementsDiagnosis:
-    """The answer, from the decks `fitted` as they were and the state `at` in which the search ended."""
+    """The answer, from the decks `fitted` as they were, their tests, and the state `at` in which the search ended."""
     last, tried = at.ranking.baseline, explanations(at.ranking)
     told = next(one for one in tried if not one.causes)
-    adequate = not doubtful(last, False)
+    adequate = not doubtful(last, False) and (bool(turns) or not _differ(tests))
     if not adequate and not explains(last):  # a step that leaves too much, and all after it, is no name
         turns = tuple(replace(turn, kind=ONE_OF) for turn in turns)
-    return ArrangementsDiagnosis(
+    answer = ArrangementsDiagnosis(
         problems=fitted.problems,
         changed=None if all(fitted.having) else fitted.having,
         extended=at.fitted.problems if turns else (),
@@ -169,9 +180,10 @@ def _answer(
         held_out=held,
         refuted=refuted,
         choices=choices,
-        field=None if adequate else _field(at),
         untried=at.ranking.untried,
+        tests=tests,
     )
+    return answer if answer.adequate or answer.unchanged else replace(answer, field=_field(at))
 
 
 def _field(at: State) -> Field | None:
@@ -190,13 +202,16 @@ def _state(
     """What candidates make of decks as they are: of what changed together, of what all have one after another.
 
     before: the state with one mechanism less. Where sets of what changed were sought there, and the one that led leaves no more
-    than noise, nothing that decks held out could confirm is sought again.
+    than noise, nothing that decks held out could confirm is sought again; nor is it where tests show no change by themselves.
     """
     changed, none = not all(fitted.having), uncrossed(fit(Together(fitted.arranged), np.zeros(0)))
-    if changed and before is not None and not unseen.problems and not doubtful(none, False):
-        return State(fitted, unseen, replace(ranking(none, [none]), untried=before.ranking.untried), None)
+    tests = compared(fitted.arranged) if changed and before is None else None
+    over = not doubtful(none, False) if before is not None else tests is not None and tests.alike
+    if changed and over and not unseen.problems:
+        untried = () if before is None else before.ranking.untried
+        return State(fitted, unseen, replace(ranking(none, [none]), untried=untried), None, tests)
     found = rank(fitted.arranged, known, causes if changed else 1, by_leading, kind=Together, last=changed)
-    return State(fitted, unseen, found, _predicted(none, unseen))
+    return State(fitted, unseen, found, _predicted(none, unseen), tests)
 
 
 def _predicted(one: Fit, unseen: Decks) -> Score | None:
@@ -204,9 +219,11 @@ def _predicted(one: Fit, unseen: Decks) -> Score | None:
 
 
 def _turn(at: State) -> tuple[Turn | None, Fit | None]:
-    """The next cause, where one is demanded: by what is left, or by evidence that arrangements held out confirm."""
+    """The next cause, where one is demanded: by what is left, by tests that differ, or by evidence that arrangements held out
+    confirm.
+    """
     ranking, best = at.ranking, leader(at.ranking)
-    demanded = doubtful(ranking.baseline, False)
+    demanded = doubtful(ranking.baseline, False) or _differ(at.tests)
     if best is None or not _has_name(ranking, best) or not (demanded or (at.unseen.problems and sure(ranking))):
         return None, None
     gain = ranking.log_odds[next(i for i, one in enumerate(ranking.fits) if one is best)]
@@ -218,6 +235,11 @@ def _turn(at: State) -> tuple[Turn | None, Fit | None]:
     before = explanation(ranking.baseline)
     turn = Turn(ONE_OF, explanations(ranking), ranking.groups, ranking.noise_scale, before, held)
     return replace(turn, kind=NAMED if turn.probability > SURE and not far_parameters(best) else ONE_OF), best
+
+
+def _differ(tests: Compared | None) -> bool:
+    """Whether tests before and after say by themselves that something has changed."""
+    return tests is not None and not tests.alike
 
 
 def _has_name(ranking: Ranking, best: Fit) -> bool:
@@ -247,43 +269,3 @@ def _held_out(unseen: tuple[Problem, ...], before: Score | None, after: Score | 
         labels += [f"{each.title.strip()}, mode {number}" for number in each.test.number[have]]
         measured.append(each.test.frequency_hz[have])
     return HeldOut(BY_DECK, tuple(labels), np.concatenate(measured), before, after)
-
-
-def _check(problems: tuple[Problem, ...]) -> None:
-    """Refuse decks that are no arrangements of one structure."""
-    first = problems[0]
-    for each in problems:
-        if each.test is None or each.hold_out is not None:
-            raise DeckError.of(
-                "MD691",
-                "configurations are diagnosed by their measured modes, and held out as a whole;  "
-                + ("this deck has none" if each.test is None else "this deck holds out a part of its test"),
-                each.place("test"),
-                help="give test.modes without hold_out; name whole decks with --held-out",
-            )
-        if _parameters(each) != _parameters(first) or not _alike(each, first):
-            names = ", ".join(p.name for p in first.parameters) or "none"
-            raise DeckError.of(
-                "MD690",
-                f"its parameters are not those of {first.source.path} ({names}, with their values, sd and transforms)",
-                each.place("parameters"),
-                help="write the same parameters and prior in every configuration",
-            )
-        if each.theory != first.theory:
-            raise DeckError.of(
-                "MD690",
-                f"its errors of theory are not those of {first.source.path}",
-                each.place("theory"),
-                help="write the same theory in every configuration: they are models of one structure",
-            )
-
-
-def _parameters(problem: Problem) -> list[tuple]:
-    return [(p.name, p.nominal, p.sd, p.transform) for p in problem.parameters]
-
-
-def _alike(one: Problem, other: Problem) -> bool:
-    """Whether prior means and covariances are the same."""
-    return bool(
-        np.array_equal(one.prior.mean, other.prior.mean) and np.array_equal(one.prior.dense(), other.prior.dense())
-    )
