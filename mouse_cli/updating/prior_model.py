@@ -1,5 +1,7 @@
 """The prior model before the first cycle: its eigensolution, the test brought to its scale, and what is wrong with either."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from mouse_cli._errors import DeckError, Diagnostic
@@ -75,10 +77,11 @@ def related(problem: Problem, solver: EigenSolver | None = None) -> np.ndarray:
     mistakes.check(problem, solution)
     shape_mistakes.check(problem, solution)
     frf_mistakes.check(problem, solution)
-    modes, kept = paired(problem, solution), np.ones(problem.test.m, bool)
+    kept = np.ones(problem.test.m, bool)
     while kept.any():
+        own = replace(problem, test=restricted(problem.test, kept))
         try:
-            observe(restricted(problem.test, kept), M, solution, modes[kept])
+            observe(own.test, M, solution, paired(own, solution))  # without one, others may be paired otherwise
             return kept
         except UnrelatedShapes as reason:
             kept[np.flatnonzero(kept)[reason.mode]] = False
