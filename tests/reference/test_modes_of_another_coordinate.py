@@ -1,4 +1,4 @@
-"""Storeys whose masses are beside their columns, measured along one axis: every shape is there twice, which the model cannot have."""
+"""Storeys whose masses are beside their columns, measured along one axis: each shape is there twice, which no chain can have."""
 
 from dataclasses import replace
 
@@ -21,7 +21,7 @@ def modes(k: np.ndarray, m: np.ndarray, arm: float, stiff: float) -> tuple[np.nd
     return np.sqrt(values[:COUNT]) / (2 * np.pi), shapes[:N, :COUNT]
 
 
-@pytest.mark.parametrize("seed", [3, 9, 12, 26])
+@pytest.mark.parametrize("seed", [3, 12, 26])
 def test_what_is_left_of_the_test_is_paired_with_the_model(tmp_path, seed, arm=0.7, stiff=2.5):
     """With one mode left out the others were paired otherwise, and the update refused one of them: the diagnosis ended there."""
     rng = np.random.default_rng(seed)
