@@ -1,16 +1,15 @@
 """Tests before and after, each beside the other: by draws of noise, and in a diagnosis whose model is wrong."""
 
-import json
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from scipy.stats import kstest
 
-from mouse_cli.cli.main import _run
 from mouse_cli.diagnosis.likelihoods.configurations.compared import between
 from mouse_cli.model.modal_test import ModalTest
 from tests.reference.test_arrangements import measured
+from tests.reference.test_state_before import OTHER_MASSES, answered, edited
 
 SHAPES = np.random.default_rng(5).standard_normal((9, 6))
 SHAPES /= np.abs(SHAPES).max(axis=0)
@@ -70,22 +69,13 @@ def test_tests_of_other_sensors_or_modes_are_not_compared():
     assert between(test, replace(test, **fewer)) is None
 
 
-def answered(folder, before: str, after: str, *more: str) -> tuple[int, dict]:
-    out = folder / "answer.json"
-    code = _run(["diagnose", before, "--changed", after, "-q", "--report", str(out), "--json", *more])
-    return code, json.loads(out.read_text())
-
-
 def test_nothing_has_changed_whatever_the_model_errs(tmp_path, monkeypatch):
-    """Springs that scatter by eight times as much as is allowed: no model explains either test, and nothing is sought."""
+    """The masses of the model are other ones altogether, so that it explains neither test; and nothing is sought."""
     monkeypatch.setattr("mouse_cli.diagnosis.likelihoods.configurations.diagnose.rank", None)
-    before, after = (measured(tmp_path, *each, errors=3.0) for each in (("before", 1), ("after", 2)))
-    for name in (before, after):  # what the tests err is three times as much too
-        with open(name, encoding="utf-8") as file:
-            text = file.read()
-        with open(name, "w", encoding="utf-8") as file:
-            file.write(text.replace("frequency_sd: 0.05 %", "frequency_sd: 0.15 %").replace("shape_sd: 0.5 %", "shape_sd: 1.5 %"))
-    code, found = answered(tmp_path, before, after, "--common-sd", "0.2")
+    before, after = (measured(tmp_path, *each) for each in (("before", 1), ("after", 2)))
+    for path in (before, after):
+        edited(path, "nodes: 1-8, mass: 1.0", OTHER_MASSES)
+    code, found = answered(tmp_path, before, after)
     assert (code, found["verdict"]["kind"], found["turns"]) == (0, "nothing-missing", [])
     assert found["residual"]["p"] < 1e-6 < found["tests"]["p"]
     first, second = found["verdict"]["sentences"]

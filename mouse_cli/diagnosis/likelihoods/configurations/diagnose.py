@@ -10,12 +10,13 @@ from mouse_cli.diagnosis.extend.deck import in_its_units
 from mouse_cli.diagnosis.extend.halves import halved
 from mouse_cli.diagnosis.likelihoods.configurations.checked import checked
 from mouse_cli.diagnosis.likelihoods.configurations.compared import compared
+from mouse_cli.diagnosis.likelihoods.configurations.erring import Before, before
 from mouse_cli.diagnosis.likelihoods.configurations.judged import by_leading
 from mouse_cli.diagnosis.likelihoods.configurations.model import Arranged, SharedRecipe, Together, lowest_of
 from mouse_cli.diagnosis.likelihoods.configurations.predict import placed, predicted, shared_errors
 from mouse_cli.diagnosis.likelihoods.configurations.shared import Errors
+from mouse_cli.diagnosis.likelihoods.configurations.sought import Sought
 from mouse_cli.diagnosis.likelihoods.modal.meshed import HALVINGS, Meshed, meshed
-from mouse_cli.diagnosis.mechanisms import Candidate, registry
 from mouse_cli.diagnosis.nameless.fit import field_of, rivals
 from mouse_cli.diagnosis.search.escape import uncrossed
 from mouse_cli.diagnosis.search.fit import Fit, fit
@@ -117,8 +118,10 @@ def diagnose_arrangements(
     """
     checked((*fitted.problems, *unseen.problems))
     fitted, unseen, remarks = _on_short_elements(fitted, unseen)
-    known = None if choices.candidates is None else {key: registry()[key] for key in choices.candidates}
-    first = at = _state(fitted, unseen, known, choices.causes)
+    fitted, unseen, known = _as_theory_errs(fitted, unseen)
+    remarks += known.said if known else ()
+    sought = Sought(choices, known)
+    first = at = _state(fitted, unseen, sought)
     turns: list[Turn] = []
     refuted = ""
     while len(turns) < _MOST and not refuted:
@@ -130,7 +133,7 @@ def diagnose_arrangements(
             continue
         turns.append(turn)
         notice(f"{len(turns)}: {turn.best.title}")
-        at = _state(at.fitted.extended(best), at.unseen.extended(best), known, choices.causes, at)
+        at = _state(at.fitted.extended(best), at.unseen.extended(best), sought, at)
     held = _held_out(unseen.problems, first.before, at.before if turns else None)
     return replace(_answer(fitted, first.tests, at, tuple(turns), held, refuted, choices), remarks=remarks)
 
@@ -146,6 +149,14 @@ def _on_short_elements(fitted: Decks, unseen: Decks) -> tuple[Decks, Decks, tupl
         said += (found.said(problem),)
         fitted, unseen = fitted.halved(), unseen.halved()
     return fitted, unseen, said + tuple(dict.fromkeys(text for each in fitted.meshed for text in each.remarks))
+
+
+def _as_theory_errs(fitted: Decks, unseen: Decks) -> tuple[Decks, Decks, Before | None]:
+    """Both with errors of theory as large as the state before asks, and what it asks."""
+    found = before(fitted.arranged)
+    if found is None or found.tau == found.stated:
+        return fitted, unseen, found
+    return *(replace(each, common_sd=found.tau) for each in (fitted, unseen)), found
 
 
 def _answer(
@@ -196,21 +207,20 @@ def _field(at: State) -> Field | None:
     return None if i is None or not found.log_odds[i] > ODDS else field_of(found, found.fits[i])
 
 
-def _state(
-    fitted: Decks, unseen: Decks, known: dict[str, Candidate] | None, causes: int, before: State | None = None
-) -> State:
+def _state(fitted: Decks, unseen: Decks, sought: Sought, last: State | None = None) -> State:
     """What candidates make of decks as they are: of what changed together, of what all have one after another.
 
-    before: the state with one mechanism less. Where sets of what changed were sought there, and the one that led leaves no more
-    than noise, nothing that decks held out could confirm is sought again; nor is it where tests show no change by themselves.
+    last: the state with one mechanism less. Where sets of what changed were sought there, and the one that led leaves no more
+    than noise, nothing that decks held out could confirm is sought again; nor is it where tests show no change by themselves, or
+    the model does not explain the state before.
     """
     changed, none = not all(fitted.having), uncrossed(fit(Together(fitted.arranged), np.zeros(0)))
-    tests = compared(fitted.arranged) if changed and before is None else None
-    over = not doubtful(none, False) if before is not None else tests is not None and tests.alike
+    tests = compared(fitted.arranged) if changed and last is None else None
+    over = not doubtful(none, False) if last is not None else not sought.worth(tests)
     if changed and over and not unseen.problems:
-        untried = () if before is None else before.ranking.untried
+        untried = () if last is None else last.ranking.untried
         return State(fitted, unseen, replace(ranking(none, [none]), untried=untried), None, tests)
-    found = rank(fitted.arranged, known, causes if changed else 1, by_leading, kind=Together, last=changed)
+    found = rank(fitted.arranged, sought.known, sought.causes if changed else 1, by_leading, kind=Together, last=changed)
     return State(fitted, unseen, found, _predicted(none, unseen), tests)
 
 

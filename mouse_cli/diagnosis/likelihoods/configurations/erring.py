@@ -1,0 +1,92 @@
+"""How much theory errs, as tests of the state before ask: what is sought is in none of them, so that all they leave is of theory.
+
+Their evidence, ln N(r; 0, I + T T' + U U') with T slopes by the parameters in prior sd and U those of `shared`, is compared for
+a few tau; the one that is stated stands unless another is more probable by what a name takes.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mouse_cli.diagnosis.evidence import marginal
+from mouse_cli.diagnosis.gates import GATE, ODDS
+from mouse_cli.diagnosis.likelihoods.configurations.model import Arranged
+from mouse_cli.diagnosis.likelihoods.configurations.shared import Errors
+from mouse_cli.diagnosis.likelihoods.modal.model import Model
+from mouse_cli.updating.chi_square import upper_tail
+
+_TIMES = (1.0, 1.5, 2.0, 3.0, 5.0, 8.0)  # of the tau that is stated
+_STEPS = 6  # times that parameters are found again
+_BEYOND = 5.0  # chi-square over degrees of freedom above which a test would have to understate its noise far too much
+_FAR = 2.0  # tau over the stated one from which on several changes would make up for what theory errs
+
+
+@dataclass(frozen=True)
+class Before:
+    """tau that the state before asks for, the one that is stated, and what is left of its tests with it."""
+
+    tau: float
+    stated: float
+    chi2: float
+    dof: int
+
+    @property
+    def explained(self) -> bool:
+        """Whether the model explains that state with such errors, or with noise that is somewhat understated."""
+        return upper_tail(self.chi2, self.dof) > GATE or self.chi2 <= _BEYOND * self.dof
+
+    @property
+    def far(self) -> bool:
+        """Whether it asks for far more than is stated."""
+        return self.tau >= _FAR * self.stated
+
+    @property
+    def said(self) -> tuple[str, ...]:
+        """What to say of it, in sentences without their ends."""
+        if not self.explained:
+            return (
+                f"the model does not explain the state before (chi-square {self.chi2:.0f} on {self.dof}), so that nothing it says "
+                "of a change could be trusted, and none was sought: diagnose that state by itself, or both as configurations that "
+                "share what is missing, and put it into both decks",
+            )
+        if self.tau == self.stated:
+            return ()
+        said = f"theory errs by {100 * self.tau:.2g} % of ln f in the state before, not by {100 * self.stated:.2g} % as stated"
+        if not self.far:
+            return (f"{said}: that is allowed for",)
+        return (
+            f"{said}: that is allowed for, and no more than one change is sought, for several would make up for it; something may "
+            "be missing in that state already, diagnose it by itself",
+        )
+
+
+def before(base: Arranged) -> Before | None:
+    """What tests of configurations without what is sought ask of theory; None where they are no model that others are."""
+    which = [i for i, has in enumerate(base.having) if not has]
+    if not which or not base.errors.alike or not base.common_sd:
+        return None
+    found = [_evidence(base, which, times * base.common_sd) for times in _TIMES]
+    best = max(range(len(found)), key=lambda i: found[i][0])
+    best = best if found[best][0] > found[0][0] + ODDS else 0
+    dof = sum(base.parts[i].data.dof for i in which)
+    return Before(_TIMES[best] * base.common_sd, base.common_sd, found[best][1], dof)
+
+
+def _evidence(base: Arranged, which: list[int], tau: float) -> tuple[float, float]:
+    """ln of the density of the tests of configurations `which`, the parameters and errors of sd tau integrated out, and the
+    chi-square of what these leave.
+    """
+    errors = Errors(base.errors.modes, tau)
+    U, models = np.vstack([errors.U[i] for i in which]), [Model(base.parts[i]) for i in which]
+    z, found = base.z, (-np.inf, np.inf)
+    for _ in range(_STEPS):
+        points = [model.point(z) for model in models]
+        if None in points:
+            break
+        T = np.vstack([model.jacobian(at) for model, at in zip(models, points, strict=True)])
+        B = np.hstack([T, U])
+        residual = np.concatenate([at.residual for at in points]) + T @ z
+        chi2, size = marginal(residual, B)
+        found = max(found, (-0.5 * (chi2 + size), chi2))
+        z = T.T @ np.linalg.solve(np.eye(len(B)) + B @ B.T, residual)
+    return found

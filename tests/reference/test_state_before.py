@@ -1,0 +1,94 @@
+"""What the state before says of theory: by the density written out, and in diagnoses of chains whose springs scatter."""
+
+import json
+
+import numpy as np
+import pytest
+from scipy.stats import multivariate_normal
+
+from mouse_cli.cli.main import _run
+from mouse_cli.diagnosis.likelihoods.configurations import diagnose
+from mouse_cli.diagnosis.likelihoods.configurations.erring import _evidence, before
+from mouse_cli.diagnosis.likelihoods.configurations.model import Arranged
+from mouse_cli.diagnosis.likelihoods.configurations.shared import Errors
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
+from mouse_cli.diagnosis.likelihoods.modal.model import Model
+from mouse_cli.formats import read_deck
+from tests.reference.test_arrangements import measured
+
+
+def arranged(folder, tau: float, **scatter: float) -> Arranged:
+    """A chain before and after a spring has lost a fifth of its stiffness."""
+    paths = measured(folder, "before", 1, **scatter), measured(folder, "after", 2, 0.2, **scatter)
+    problems = map(read_deck, paths)
+    return Arranged(tuple(reduced(each, each.prior.mean) for each in problems), tau, (False, True))
+
+
+def test_the_evidence_is_the_density_of_the_tests_before(tmp_path):
+    """Linear in the one parameter, about the value at which the tests are most probable."""
+    base = arranged(tmp_path, 0.02)
+    model, U = Model(base.parts[0]), Errors(base.errors.modes, 0.02).U[0]
+    z = 0.0
+    for _ in range(20):
+        at = model.point(np.array([z]))
+        T = model.jacobian(at)
+        r, S = at.residual + T[:, 0] * z, np.eye(len(T)) + T @ T.T + U @ U.T
+        z = float(T[:, 0] @ np.linalg.solve(S, r))
+    density = multivariate_normal(np.zeros(len(r)), S).logpdf(r) + len(r) / 2 * np.log(2 * np.pi)
+    found, chi2 = _evidence(base, [0], 0.02)
+    assert found == pytest.approx(density, abs=1e-3) and chi2 == pytest.approx(r @ np.linalg.solve(S, r), rel=1e-3)
+
+
+@pytest.mark.parametrize(("stated", "least", "most"), [(0.02, 1.0, 1.5), (0.001, 3.0, 8.0)])
+def test_theory_errs_as_much_as_the_state_before_asks(tmp_path, stated, least, most):
+    """Springs scatter by 3 %, half of which is of K in each mode, and half of that of ln f."""
+    found = before(arranged(tmp_path, stated))
+    assert least <= found.tau / stated <= most and found.explained
+    assert bool(found.said) == (found.tau != stated)
+
+
+def test_what_the_change_does_says_nothing_of_theory(tmp_path):
+    base = arranged(tmp_path, 0.02)
+    other = read_deck(measured(tmp_path, "later", 3, 0.8))
+    parts = base.parts[0], reduced(other, other.prior.mean)
+    assert before(Arranged(parts, 0.02, (False, True))) == before(base)
+    assert before(Arranged(parts, 0.02, (True, True))) is None
+
+
+OTHER_MASSES = "nodes: 1-8, mass: [9, 1, 1, 0.1, 5, 1, 0.2, 1]"
+
+
+def edited(path: str, *change: str) -> None:
+    """The deck with one text for another."""
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    assert change[0] in text
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text.replace(*change))
+
+
+def answered(folder, *decks: str, more: tuple[str, ...] = ()) -> tuple[int, dict]:
+    out = folder / "answer.json"
+    code = _run(["diagnose", decks[0], "--changed", decks[1], "-q", "--report", str(out), "--json", *more])
+    return code, json.loads(out.read_text())
+
+
+def test_nothing_is_sought_in_a_model_that_explains_nothing(tmp_path, monkeypatch):
+    """Masses that are other ones altogether: no size of errors of theory makes that."""
+    monkeypatch.setattr(diagnose, "rank", None)
+    decks = [measured(tmp_path, *each) for each in (("before", 1), ("after", 2, 0.3))]
+    for path in decks:
+        edited(path, "nodes: 1-8, mass: 1.0", OTHER_MASSES)
+    code, found = answered(tmp_path, *decks)
+    assert (code, found["verdict"]["kind"], found["turns"]) == (1, "unknown", [])
+    (said,) = [text for text in found["remarks"] if "state before" in text]
+    assert "does not explain" in said and "diagnose that state by itself" in said
+
+
+def test_one_change_is_named_where_theory_errs_far_more_than_stated(tmp_path):
+    decks = [measured(tmp_path, *each) for each in (("before", 1), ("after", 2, 0.6, 6))]
+    code, found = answered(tmp_path, *decks, more=("--common-sd", "0.1"))
+    (cause,) = found["verdict"]["causes"]
+    assert (code, cause["kind"], cause["physics"], cause["site"]["text"]) == (1, "named", "stiffness-loss", "spring 6")
+    assert found["common_sd"] >= 0.003
+    assert any("no more than one change is sought" in text for text in found["remarks"])
