@@ -18,7 +18,7 @@ from mouse_cli.updating.chi_square import upper_tail
 _TIMES = (1.0, 1.5, 2.0, 3.0, 5.0, 8.0)  # of the tau that is stated
 _STEPS = 6  # times that parameters are found again
 _BEYOND = 5.0  # chi-square over degrees of freedom above which a test would have to understate its noise far too much
-_FAR = 2.0  # tau over the stated one from which on several changes would make up for what theory errs
+_FAR = 2.0  # tau over the stated one from which on several changes would compensate for what theory errs
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ class Before:
         if not self.far:
             return (f"{said}: that is allowed for",)
         return (
-            f"{said}: that is allowed for, and no more than one change is sought, for several would make up for it; something may "
+            f"{said}: that is allowed for, and no more than one change is sought, for several would compensate for it; something may "
             "be missing in that state already, diagnose it by itself",
         )
 
