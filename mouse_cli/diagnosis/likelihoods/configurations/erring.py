@@ -46,8 +46,8 @@ class Before:
         if not self.explained:
             return (
                 f"the model does not explain the state before (chi-square {self.chi2:.0f} on {self.dof}), so that nothing it says "
-                "of a change could be trusted, and none was sought: diagnose that state by itself, or both as configurations that "
-                "share what is missing, and put it into both decks",
+                "of a change could be trusted, and none was sought: diagnose that state by itself, and put what it lacks into both "
+                "decks",
             )
         if self.tau == self.stated:
             return ()
@@ -55,8 +55,8 @@ class Before:
         if not self.far:
             return (f"{said}: that is allowed for",)
         return (
-            f"{said}: that is allowed for, and no more than one change is sought, for several would compensate for it; something may "
-            "be missing in that state already, diagnose it by itself",
+            f"{said}: that is allowed for, and no more than one change is sought, for several would compensate for it; something "
+            "may be missing in that state already, diagnose it by itself",
         )
 
 
