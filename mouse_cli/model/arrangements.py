@@ -109,7 +109,8 @@ class ArrangementsDiagnosis(Shown):
     told. chi2 on dof with probability p: what is left with all of them. values, sd (q,): of the parameters of the extended decks.
     rest: what was tried beside all of them and is not demanded, that without a further cause first. held_out: arrangements that no
     fit has seen, before the first cause and after the last. field: physics without a name where the answer is UNKNOWN; untried:
-    candidates left out. tests: those before and after, each beside the other; None where they cannot be compared.
+    candidates left out. tests: those before and after, each beside the other; None where they cannot be compared. unsought: why no
+    change was sought, in a sentence; empty: one was.
     """
 
     problems: tuple[Problem, ...]
@@ -132,6 +133,7 @@ class ArrangementsDiagnosis(Shown):
     field: Field | None = None
     untried: tuple[Untried, ...] = ()
     tests: Compared | None = None
+    unsought: str = ""
 
     @property
     def problem(self) -> Problem:

@@ -32,7 +32,9 @@ _EVEN = 0.5  # probability of no mechanism up to which one is called likely
 def sentences(found: ArrangementsDiagnosis) -> tuple[str, ...]:
     """What was found, then one paragraph a mechanism in the order of its identification."""
     first = list(_unchanged(found)) if found.unchanged else [_VERDICTS[found.kind]]
-    if found.kind == UNKNOWN and found.field is not None:
+    if found.kind == UNKNOWN and found.unsought:
+        first = [found.unsought, "Do not trust the revised parameters."]
+    elif found.kind == UNKNOWN and found.field is not None:
         first = list(field_sentences(found.field))
     elif found.remaining is not None:
         first.append(f"None of the following is proved: with all of it in the model {remains(found.remaining)}.")

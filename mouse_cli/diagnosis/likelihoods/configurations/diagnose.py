@@ -119,7 +119,6 @@ def diagnose_arrangements(
     checked((*fitted.problems, *unseen.problems))
     fitted, unseen, remarks = _on_short_elements(fitted, unseen)
     fitted, unseen, known = _as_theory_errs(fitted, unseen)
-    remarks += known.said if known else ()
     sought = Sought(choices, known)
     first = at = _state(fitted, unseen, sought)
     turns: list[Turn] = []
@@ -135,7 +134,9 @@ def diagnose_arrangements(
         notice(f"{len(turns)}: {turn.best.title}")
         at = _state(at.fitted.extended(best), at.unseen.extended(best), sought, at)
     held = _held_out(unseen.problems, first.before, at.before if turns else None)
-    return replace(_answer(fitted, first.tests, at, tuple(turns), held, refuted, choices), remarks=remarks)
+    found = _answer(fitted, first.tests, at, tuple(turns), held, refuted, choices)
+    found = replace(found, remarks=remarks + (known.remarks if known else ()), unsought="" if turns or not known else known.refused)
+    return found if found.adequate or found.unchanged or found.unsought else replace(found, field=_field(at))
 
 
 def _on_short_elements(fitted: Decks, unseen: Decks) -> tuple[Decks, Decks, tuple[str, ...]]:
@@ -174,7 +175,7 @@ def _answer(
     adequate = not doubtful(last, False) and (bool(turns) or not _differ(tests))
     if not adequate and not explains(last):  # a step that leaves too much, and all after it, is no name
         turns = tuple(replace(turn, kind=ONE_OF) for turn in turns)
-    answer = ArrangementsDiagnosis(
+    return ArrangementsDiagnosis(
         problems=fitted.problems,
         changed=None if all(fitted.having) else fitted.having,
         extended=at.fitted.problems if turns else (),
@@ -194,7 +195,6 @@ def _answer(
         untried=at.ranking.untried,
         tests=tests,
     )
-    return answer if answer.adequate or answer.unchanged else replace(answer, field=_field(at))
 
 
 def _field(at: State) -> Field | None:
@@ -220,7 +220,7 @@ def _state(fitted: Decks, unseen: Decks, sought: Sought, last: State | None = No
     if changed and over and not unseen.problems:
         untried = () if last is None else last.ranking.untried
         return State(fitted, unseen, replace(ranking(none, [none]), untried=untried), None, tests)
-    found = rank(fitted.arranged, sought.known, sought.causes if changed else 1, by_leading, kind=Together, last=changed)
+    found = rank(fitted.arranged, sought.known, sought.choices.causes if changed else 1, by_leading, kind=Together, last=changed)
     return State(fitted, unseen, found, _predicted(none, unseen), tests)
 
 

@@ -18,7 +18,7 @@ from mouse_cli.updating.chi_square import upper_tail
 _TIMES = (1.0, 1.5, 2.0, 3.0, 5.0, 8.0)  # of the tau that is stated
 _STEPS = 6  # times that parameters are found again
 _BEYOND = 5.0  # chi-square over degrees of freedom above which a test would have to understate its noise far too much
-_FAR = 2.0  # tau over the stated one from which on several changes would compensate for what theory errs
+_FAR = 0.02  # tau from which on that state lacks more than scatter of its members, where no more is stated
 
 
 @dataclass(frozen=True)
@@ -32,32 +32,29 @@ class Before:
 
     @property
     def explained(self) -> bool:
-        """Whether the model explains that state with such errors, or with noise that is somewhat understated."""
+        """Whether the model explains that state: with no more than scatter, or with noise that is somewhat understated."""
+        if self.tau > self.stated and self.tau >= _FAR:
+            return False
         return upper_tail(self.chi2, self.dof) > GATE or self.chi2 <= _BEYOND * self.dof
 
     @property
-    def far(self) -> bool:
-        """Whether it asks for far more than is stated."""
-        return self.tau >= _FAR * self.stated
+    def refused(self) -> str:
+        """Why no change is sought, in a sentence; empty: one is."""
+        if self.explained:
+            return ""
+        return (
+            "No change was sought, for the model does not explain the state before: it would have to err by "
+            f"{100 * self.tau:.2g} % of ln f, and leaves a chi-square of {self.chi2:.0f} on {self.dof} then. Diagnose that state "
+            "by itself, and put what it lacks into both decks."
+        )
 
     @property
-    def said(self) -> tuple[str, ...]:
-        """What to say of it, in sentences without their ends."""
-        if not self.explained:
-            return (
-                f"the model does not explain the state before (chi-square {self.chi2:.0f} on {self.dof}), so that nothing it says "
-                "of a change could be trusted, and none was sought: diagnose that state by itself, and put what it lacks into both "
-                "decks",
-            )
-        if self.tau == self.stated:
+    def remarks(self) -> tuple[str, ...]:
+        """What to say of a state that is explained, without ends of sentences."""
+        if self.tau == self.stated or not self.explained:
             return ()
-        said = f"theory errs by {100 * self.tau:.2g} % of ln f in the state before, not by {100 * self.stated:.2g} % as stated"
-        if not self.far:
-            return (f"{said}: that is allowed for",)
-        return (
-            f"{said}: that is allowed for, and no more than one change is sought, for several would compensate for it; something "
-            "may be missing in that state already, diagnose it by itself",
-        )
+        percent = [f"{100 * each:.2g} %" for each in (self.tau, self.stated)]
+        return (f"theory errs by {percent[0]} of ln f in the state before, not by {percent[1]} as stated: that is allowed for",)
 
 
 def before(base: Arranged) -> Before | None:

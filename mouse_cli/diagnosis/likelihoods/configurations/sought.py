@@ -20,11 +20,6 @@ class Sought:
         """Candidates by key; None: all."""
         return None if self.choices.candidates is None else {key: registry()[key] for key in self.choices.candidates}
 
-    @property
-    def causes(self) -> int:
-        """How many at once."""
-        return 1 if self.before is not None and self.before.far else self.choices.causes
-
     def worth(self, tests: Compared | None) -> bool:
         """Whether a change is worth seeking, by the tests before and after beside one another and by the state before."""
         return not (tests is not None and tests.alike) and (self.before is None or self.before.explained)
