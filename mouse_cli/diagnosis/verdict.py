@@ -76,8 +76,8 @@ def _judged(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:
     mechanism is sure and what the deck holds out confirms it. Where none of that holds and yet the model as it is is not probable
     (LIKELY), or the model as it is fails on what the deck holds out and a mechanism predicts it, it is likely, not proved: one of
     several, the model as it is among them. A mechanism that is sure at one of several sites is one of these, unless all of them are
-    in one line of panels: that is the place then; of a set those are named whose sites are sure. Of a set that what the deck holds
-    out refutes, that one mechanism is named which carries it, if any does.
+    in one line of panels: that is the place then; of a set those are named whose sites are sure. Of a set that data held out
+    refute, or modes that are predicted from one another, that one mechanism is named which carries it, if any does.
     """
     baseline, best, none = ranking.baseline, leader(ranking), dict(ranking.groups).get("none", 0.0)
     believed = ranking.stated[0] >= _BELIEVED

@@ -1,6 +1,7 @@
 """How well a model predicts data that no fit has seen."""
 
 from dataclasses import dataclass
+from math import comb
 
 import numpy as np
 
@@ -24,6 +25,7 @@ class Score:
 
 BY_DECK, BY_MODE = "held out by the deck", "each mode from the others"
 REFUTED = 1e-3  # p-value of data below which they refute a model
+INTERVAL = 0.9  # probability of each interval of a prediction
 
 
 @dataclass(frozen=True)
@@ -37,6 +39,30 @@ class HeldOut:
     revised: Score | None
 
     @property
+    def p(self) -> float:
+        """p-value of the revised model: of the misfit of what the deck holds out, of how few modes lie within their intervals as
+        others predict them; 1 without such a model.
+        """
+        if self.revised is None:
+            return 1.0
+        return self.revised.p if self.kind == BY_DECK else self.within
+
+    @property
+    def within(self) -> float:
+        """Probability of so few frequencies within the 90 % intervals of the revised model by chance alone, a binomial one."""
+        count = int(np.isfinite(self.measured_hz).sum())
+        return so_few(round(count * self.revised.covered), count) if count else 1.0
+
+    @property
     def refuted(self) -> bool:
-        """Whether what the deck holds out refutes the revised model, however much better than the other it predicts that."""
-        return self.kind == BY_DECK and self.revised is not None and self.revised.p < REFUTED
+        """Whether data that no fit has seen refute the revised model, however much better than the other it predicts them."""
+        return self.p < REFUTED
+
+
+def so_few(within: int, number: int) -> float:
+    """Probability that at most so many of `number` values lie within their 90 % intervals, a binomial one.
+
+    >>> round(so_few(3, 8), 6), so_few(4, 4)
+    (0.000432, 1.0)
+    """
+    return min(1.0, sum(comb(number, i) * INTERVAL**i * (1 - INTERVAL) ** (number - i) for i in range(within + 1)))

@@ -1,6 +1,6 @@
 """The verdict of a diagnosis in sentences: the same in printout, JSON document and page, for every kind of test."""
 
-from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, RIVAL, Diagnosis, Explanation, Rest
+from mouse_cli.model.diagnosis import BY_DECK, NAMED, NOTHING, ONE_OF, RIVAL, Diagnosis, Explanation, Rest
 from mouse_cli.model.groups import enumerated
 from mouse_cli.model.record_diagnosis import RecordDiagnosis
 from mouse_cli.report.field_words import field_sentences
@@ -102,9 +102,11 @@ def _companions(found: Diagnosis) -> str:
         return ""
     groups, p = found.certain.companions[0]
     if groups != "none" and found.held_out is not None and found.held_out.refuted:
+        held = found.held_out
+        unseen = "what the deck holds out" if held.kind == BY_DECK else "modes as the others predict them"
         return (
-            f"What acts beside it is open: {companion(found, groups)} beside it explains what was fitted, and fails on what "
-            f"the deck holds out ({p_value(found.held_out.revised.p)})."
+            f"What acts beside it is open: {companion(found, groups)} beside it explains what was fitted, and fails on {unseen} "
+            f"({p_value(held.p)})."
         )
     if groups != "none" and p >= _SURE:
         return f"Beside it acts {companion(found, groups)} ({with_p(p)}), and the test does not settle where."

@@ -5,12 +5,24 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from made_up_rankings import BEAM, made_up, ranked
+from scipy.stats import binom
 
 from mouse_cli.diagnosis import verdict as decided
 from mouse_cli.diagnosis.companions import loose, shared
 from mouse_cli.diagnosis.effects.change import PLACE, Unknown
 from mouse_cli.diagnosis.verdict import decide
-from mouse_cli.model.diagnosis import BY_DECK, NAMED, ONE_OF, UNKNOWN, Cause, Diagnosis, Explanation, HeldOut, Site
+from mouse_cli.model.diagnosis import (
+    BY_DECK,
+    BY_MODE,
+    NAMED,
+    ONE_OF,
+    UNKNOWN,
+    Cause,
+    Diagnosis,
+    Explanation,
+    HeldOut,
+    Site,
+)
 from mouse_cli.model.prediction import Score
 from mouse_cli.report.verdict_sentences import sentences
 
@@ -129,11 +141,25 @@ def test_a_set_of_which_no_site_is_sure_is_at_one_of_several(monkeypatch):
     assert (verdict.kind, verdict.placed, verdict.certain) == (ONE_OF, False, None)
 
 
+def proof_of(kind: str, covered: float, p: float) -> HeldOut:
+    """Eight frequencies that were predicted better with a set of mechanisms, that share of them within their intervals."""
+    score = lambda density, covered, p: Score(0.01, density, covered, np.ones(8), np.ones(8), np.ones(8), p=p)
+    labels = tuple(f"mode {number}" for number in range(1, 9))
+    return HeldOut(kind, labels, np.ones(8), score(-900.0, 0.0, 0.0), score(-90.0, covered, p))
+
+
+@pytest.mark.parametrize(("within", "refuted"), [(3, True), (4, False), (8, False)])
+def test_modes_refute_what_hardly_one_of_them_is_predicted_by(within, refuted):
+    """Of eight at most three, by chance in one of 2,300; their misfit has no p-value."""
+    proof = proof_of(BY_MODE, within / 8, float("nan"))
+    assert proof.refuted == refuted and proof.p == pytest.approx(binom.cdf(within, 8, 0.9))
+    assert not proof_of(BY_DECK, within / 8, 0.01).refuted
+
+
+@pytest.mark.parametrize("proof", [proof_of(BY_DECK, 1.0, 1e-9), proof_of(BY_MODE, 0.375, float("nan"))])
 @pytest.mark.parametrize(("alone", "named"), [(100.0, True), (900.0, False)])
-def test_of_a_set_that_what_is_held_out_refutes_only_that_is_named_which_carries_it(monkeypatch, alone, named):
+def test_of_a_set_that_what_is_held_out_refutes_only_that_is_named_which_carries_it(monkeypatch, alone, named, proof):
     """A foot leaves a tenth of the misfit, or nearly all of it: what was put beside it is open, or nothing has a name."""
-    score = lambda density, p: Score(0.01, density, 0.0, np.ones(2), np.ones(2), np.ones(2), p=p)
-    proof = HeldOut(BY_DECK, ("mode 8", "mode 9"), np.ones(2), score(-900.0, 0.0), score(-90.0, 1e-9))
     monkeypatch.setattr(decided, "held_out", lambda *given: proof)
     monkeypatch.setattr(decided, "averaged", lambda *given: None)
     monkeypatch.setattr(decided, "doubtful", lambda *given: True)

@@ -1,7 +1,6 @@
 """The four answers of a diagnosis, in plain sentences: what, where, how much, and is it true."""
 
 from collections.abc import Iterator
-from math import comb
 from operator import attrgetter
 
 import numpy as np
@@ -48,7 +47,6 @@ _SURE = 0.9  # probability from which on a doubt is none between groups
 _GAIN, _RATIO = 3.0, 0.7  # what a proof takes: gain in log density, ratio of errors
 _ADEQUATE, _ODDS = 1e-3, 3.0  # p-value of what a candidate leaves, and log odds over none, by which it explains the data
 _OWN_MODE = ("oscillator", "sprung-mass")  # mechanisms that bring a mode with them, whatever group they are in
-_INTERVAL = 0.9  # probability of each interval of a prediction
 _RARE = 0.01  # probability of so few frequencies within their intervals below which these are too narrow
 
 
@@ -270,7 +268,7 @@ def _proof(found: Diagnosis, held: HeldOut) -> str:
     ratio = error(after) / error(base)
     if not faulty(found.best) and not ratio < _RATIO:
         fails.append("the error falls too little")
-    if of_frequencies and _too_narrow(int(np.isfinite(held.measured_hz).sum()), after.covered):
+    if of_frequencies and held.within < _RARE:
         fails.append("too few frequencies lie within the intervals")
     if fails:
         return f"Validation is incomplete: {', and '.join(fails)}."
@@ -282,17 +280,6 @@ def _proof(found: Diagnosis, held: HeldOut) -> str:
             "an added mass, hold that out in the deck, and diagnose again."
         )
     return "The extended model passes. A better prediction is necessary for a name, not sufficient."
-
-
-def _too_narrow(number: int, share: float) -> bool:
-    """Whether no more than this share of `number` frequencies would lie in right intervals by chance alone (binomial).
-
-    >>> _too_narrow(4, 0.5), _too_narrow(4, 0.25), _too_narrow(20, 0.65)
-    (False, True, True)
-    """
-    within = range(round(number * share) + 1)
-    p = sum(comb(number, i) * _INTERVAL**i * (1 - _INTERVAL) ** (number - i) for i in within)
-    return p < _RARE
 
 
 SECTION = Section("diagnosis-answers", 10, "Diagnosis", answers, (Diagnosis,), place=VERDICT)
