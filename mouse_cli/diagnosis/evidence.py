@@ -20,6 +20,18 @@ def capped(hessian: np.ndarray, width: np.ndarray) -> np.ndarray:
     return found
 
 
+def root(hessian: np.ndarray, width: np.ndarray) -> np.ndarray:
+    """Root B (k + d, k + d) of the covariance B B' of all unknowns, the last d at most as wide as their ranges of `width` (d,).
+
+    In units where the diagonal of the Hessian is 1 no eigenvalue counts for less than rounding: of two unknowns that the data
+    cannot tell apart at all, the sum alone is known, and the covariance is positive definite all the same.
+    """
+    H = capped(hessian, width)
+    unit = 1 / np.sqrt(H.diagonal())
+    values, vectors = np.linalg.eigh(unit[:, None] * H * unit)
+    return unit[:, None] * vectors / np.sqrt(np.maximum(values, len(H) * np.finfo(float).eps))
+
+
 def laplace(misfit: float, hessian: np.ndarray, width: np.ndarray) -> float:
     """ln Z for C = `misfit`, H = `hessian` (k + d, k + d) and widths (d,) of the ranges of the last d unknowns."""
     size = _log_determinant(capped(hessian, width))
@@ -34,9 +46,9 @@ def at_ends(left: np.ndarray, hessian: np.ndarray, width: np.ndarray, share: np.
     Mathematical Statistics 42, 1971); unknowns are taken one by one.
     """
     at = np.flatnonzero(share)
-    if not len(at):
+    if not len(at) or not np.isfinite(hessian).all():
         return 0.0
-    sd = np.sqrt(np.diag(np.linalg.inv(capped(hessian, width)))[len(hessian) - len(width) + at])
+    sd = np.linalg.norm(root(hessian, width)[len(hessian) - len(width) + at], axis=1)
     ln_ratio = np.log(width[at] / (np.sqrt(2 * np.pi) * sd)) - 0.5 * (left[at] / sd) ** 2
     return float(np.logaddexp(np.log1p(-share[at]), np.log(share[at]) + ln_ratio).sum())
 

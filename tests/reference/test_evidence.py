@@ -8,7 +8,7 @@ from scipy.integrate import dblquad, quad
 from scipy.linalg import eigh
 from scipy.stats import multivariate_normal
 
-from mouse_cli.diagnosis.evidence import laplace, marginal
+from mouse_cli.diagnosis.evidence import at_ends, laplace, marginal
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.search.fit import fit
@@ -87,6 +87,13 @@ def test_a_share_of_the_prior_at_the_end_of_a_range_adds_what_the_data_say_there
     Z, _ = quad(lambda c: np.exp(exact(model, np.array([c]))), -60.0, 60.0, points=[free.c[0]], limit=300)
     whole = 0.75 * Z / model.width[0] + 0.25 * np.exp(exact(model, np.array([end])))
     assert fit(model, free.c).log_evidence == pytest.approx(np.log(whole), abs=5e-3)
+
+
+def test_a_share_at_an_end_survives_unknowns_that_the_data_cannot_tell_apart():
+    """Two shares of which the data feel the sum alone, and a Hessian that has no numbers."""
+    H = 1e12 * np.ones((2, 2))
+    assert np.isfinite(at_ends(np.zeros(2), H, np.ones(2), np.full(2, 0.5)))
+    assert at_ends(np.zeros(1), np.array([[np.nan]]), np.ones(1), np.full(1, 0.5)) == 0.0
 
 
 def test_what_the_data_do_not_feel_leaves_it_as_it_is():

@@ -11,7 +11,7 @@ from typing import ClassVar
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import PLACE, Recipe
-from mouse_cli.diagnosis.evidence import at_ends, capped, laplace
+from mouse_cli.diagnosis.evidence import at_ends, laplace, root
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.model.site import Site
@@ -124,15 +124,8 @@ class Fit(End):
 
     @property
     def root(self) -> np.ndarray:
-        """Root B (k + t, k + t) of the covariance B B' of x, unknowns that the data do not feel as wide as their range.
-
-        In units where the diagonal of the Hessian is 1 no eigenvalue counts for less than rounding: of two unknowns that the data
-        cannot tell apart at all, the sum alone is known, and the covariance is positive definite all the same.
-        """
-        H = capped(self.hessian, self.model.width)
-        unit = 1 / np.sqrt(H.diagonal())
-        values, vectors = np.linalg.eigh(unit[:, None] * H * unit)
-        return unit[:, None] * vectors / np.sqrt(np.maximum(values, len(H) * np.finfo(float).eps))
+        """Root B (k + t, k + t) of the covariance B B' of x, unknowns that the data do not feel as wide as their range."""
+        return root(self.hessian, self.model.width)
 
     @property
     def covariance(self) -> np.ndarray:
