@@ -135,7 +135,7 @@ def diagnose_arrangements(
         at = _state(at.fitted.extended(best), at.unseen.extended(best), sought, at)
     held = _held_out(unseen.problems, first.before, at.before if turns else None)
     found = _answer(fitted, first.tests, at, tuple(turns), held, refuted, choices)
-    found = replace(found, remarks=remarks + (known.remarks if known else ()), unsought="" if turns or not known else known.refused)
+    found = replace(found, remarks=remarks + (known.remarks if known else ()), unsought=sought.refused)
     return found if found.adequate or found.unchanged or found.unsought else replace(found, field=_field(at))
 
 
@@ -216,10 +216,10 @@ def _state(fitted: Decks, unseen: Decks, sought: Sought, last: State | None = No
     """
     changed, none = not all(fitted.having), uncrossed(fit(Together(fitted.arranged), np.zeros(0)))
     tests = compared(fitted.arranged) if changed and last is None else None
-    over = not doubtful(none, False) if last is not None else not sought.worth(tests)
-    if changed and over and not unseen.problems:
+    over = not doubtful(none, False) if last is not None else tests is not None and tests.alike
+    if changed and (sought.refused or (over and not unseen.problems)):
         untried = () if last is None else last.ranking.untried
-        return State(fitted, unseen, replace(ranking(none, [none]), untried=untried), None, tests)
+        return State(fitted, unseen, replace(ranking(none, [none]), untried=untried), _predicted(none, unseen), tests)
     found = rank(fitted.arranged, sought.known, sought.choices.causes if changed else 1, by_leading, kind=Together, last=changed)
     return State(fitted, unseen, found, _predicted(none, unseen), tests)
 

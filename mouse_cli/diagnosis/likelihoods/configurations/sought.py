@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 from mouse_cli.diagnosis.likelihoods.configurations.erring import Before
 from mouse_cli.diagnosis.mechanisms import Candidate, registry
-from mouse_cli.model.arrangements import Compared
 from mouse_cli.model.diagnosis import Choices
 
 
@@ -20,6 +19,7 @@ class Sought:
         """Candidates by key; None: all."""
         return None if self.choices.candidates is None else {key: registry()[key] for key in self.choices.candidates}
 
-    def worth(self, tests: Compared | None) -> bool:
-        """Whether a change is worth seeking, by the tests before and after beside one another and by the state before."""
-        return not (tests is not None and tests.alike) and (self.before is None or self.before.explained)
+    @property
+    def refused(self) -> str:
+        """Why no change is sought, in a sentence; empty: one is."""
+        return "" if self.before is None else self.before.refused
