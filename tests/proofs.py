@@ -184,6 +184,7 @@ LONG: dict[str, tuple[str, ...]] = {
     "reference/test_modes_and_records.py": (
         "test_a_record_tells_the_place_that_two_frequencies_leave_open", "test_a_linear_record_beside_sound_modes_lacks_nothing",
     ),
+    "reference/test_modes_of_another_coordinate.py": ("test_modes_that_share_a_shape_are_of_a_motion_that_the_model_lacks",),
     "reference/test_nameless.py": (
         "test_what_is_wavy_is_a_field[stiffness-False]", "test_what_is_wavy_is_a_field[mass-True]",
         "test_a_bed_under_a_half_that_may_not_be_named", "test_what_has_a_name_keeps_it[tension-False]",

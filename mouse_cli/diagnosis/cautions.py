@@ -7,12 +7,13 @@ import numpy as np
 
 from mouse_cli.diagnosis.effects.element_sets import text
 from mouse_cli.diagnosis.gates import GATE
-from mouse_cli.diagnosis.likelihoods.modal.accuracy import scatter
+from mouse_cli.diagnosis.likelihoods.modal.accuracy import Doubt, scatter
+from mouse_cli.diagnosis.likelihoods.modal.repeated import repeated
 from mouse_cli.diagnosis.likelihoods.modal.scales import span
 from mouse_cli.diagnosis.search.grounded import one_tie
 from mouse_cli.diagnosis.search.rank import NOISY, Ranking
 from mouse_cli.diagnosis.verdict import Verdict, shifts
-from mouse_cli.model.diagnosis import NAMED, NOTHING, RIVAL, Location, Site
+from mouse_cli.model.diagnosis import NAMED, NOTHING, RIVAL, UNKNOWN, Location, Site
 from mouse_cli.model.groups import enumerated
 from mouse_cli.model.held import ElementGroup
 from mouse_cli.updating.chi_square import upper_tail
@@ -40,22 +41,43 @@ _TOLD = {
 
 def misstated(ranking: Ranking) -> str | None:
     """Key of the error that explains the data better than the accuracies of the deck do; None where those may be right."""
-    likely = sum(each.probability for each in ranking.doubts) > _PROBABLE and ranking.noise_scale <= NOISY
-    return ranking.doubts[0].key if likely else None
+    found = _doubts(ranking)
+    return found[0].key if sum(each.probability for each in found) > _PROBABLE and ranking.noise_scale <= NOISY else None
+
+
+def _doubts(ranking: Ranking) -> list[Doubt]:
+    """Errors of the test that may be; of a mode with the shape of another one see `_repeated`."""
+    alike = {mode for pair in repeated(ranking.baseline) for mode in pair}
+    return [each for each in ranking.doubts if each.key != "mode" or not alike & set(each.modes)]
 
 
 def cautions(ranking: Ranking, verdict: Verdict, location: Location | None) -> tuple[str, ...]:
     """The sentences, each whole; none where nothing is missing."""
     if verdict.kind == NOTHING:
         return ()
-    doubted = *_errors(ranking), *_noise(ranking), *_narrow(ranking)
+    doubted = *_repeated(ranking, verdict), *_errors(ranking), *_noise(ranking), *_narrow(ranking)
     return (*verdict.reasons, *doubted, *_tied(ranking, verdict), *_refuted(verdict), *_elsewhere(verdict, location))
+
+
+def _repeated(ranking: Ranking, verdict: Verdict) -> Iterator[str]:
+    """Modes with one shape at several frequencies, where nothing that was tried explains them."""
+    pairs = repeated(ranking.baseline) if verdict.kind == UNKNOWN else []
+    if not pairs:
+        return
+    number = ranking.baseline.data.test.number
+    named = enumerated([f"{number[i]} with {number[j]}" for i, j in pairs])
+    yield (
+        f"Modes {named} share a shape at these sensors, at two frequencies, and no two modes of the model do. Unless one of two is "
+        "a false mode of the identification, they differ in a motion that the sensors do not see and the model does not have: "
+        "floors that turn because their masses are off their axes, motion along another axis, or something attached. Measure "
+        "there, and give the model that motion."
+    )
 
 
 def _errors(ranking: Ranking) -> Iterator[str]:
     """Errors of the test that explain the data, alone or beside a mechanism; where they need not be, as what may be wrong."""
     coarse, entry = _CERTAIN if misstated(ranking) else _POSSIBLE
-    for doubt in ranking.doubts if ranking.noise_scale <= NOISY else ():
+    for doubt in _doubts(ranking) if ranking.noise_scale <= NOISY else ():
         if doubt.probability > RIVAL:
             p = f"probability {doubt.probability:.2f}" if doubt.probability < 0.995 else "probability > 0.99"
             number = ranking.baseline.data.test.number

@@ -1,11 +1,18 @@
 """Storeys whose masses are beside their columns, measured along one axis: each shape is there twice, which no chain can have."""
 
+import json
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.linalg import eigh
 
+from mouse_cli.cli.main import _run
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
+from mouse_cli.diagnosis.likelihoods.modal.model import Model
+from mouse_cli.diagnosis.likelihoods.modal.repeated import repeated
+from mouse_cli.diagnosis.search.fit import fit
 from mouse_cli.formats import read_deck
 from mouse_cli.model.modal_test import restricted
 from mouse_cli.updating.prior_model import begin, related
@@ -21,15 +28,14 @@ def modes(k: np.ndarray, m: np.ndarray, arm: float, stiff: float) -> tuple[np.nd
     return np.sqrt(values[:COUNT]) / (2 * np.pi), shapes[:N, :COUNT]
 
 
-@pytest.mark.parametrize("seed", [3, 12, 26])
-def test_what_is_left_of_the_test_is_paired_with_the_model(tmp_path, seed, arm=0.7, stiff=2.5):
-    """With one mode left out the others were paired otherwise, and the update refused one of them: the diagnosis ended there."""
+def storeys(folder: Path, seed: int, arm: float = 0.7, stiff: float = 2.5) -> str:
+    """A deck of the chain alone, with the modes of the floors."""
     rng = np.random.default_rng(seed)
     k, m = 4.5e5 * np.exp(0.2 * rng.standard_normal(N)), 0.8 * np.exp(0.15 * rng.standard_normal(N))
     hz, shapes = modes(k, m, arm, stiff)
     seen = shapes[np.array(SENSORS) - 1] / np.abs(shapes).max(axis=0)
     seen += 0.03 * rng.standard_normal(seen.shape)
-    path = tmp_path / "storeys.yaml"
+    path = folder / "storeys.yaml"
     path.write_text(f"""mouse: 1
 title: storeys
 model:
@@ -50,7 +56,46 @@ test:
     shapes: {seen.round(5).tolist()}
     shape_sd: 3 %
 """)
-    problem = read_deck(str(path))
+    return str(path)
+
+
+def answered(deck: str, folder: Path) -> tuple[int, dict]:
+    out = folder / "answer.json"
+    code = _run(["diagnose", deck, "--candidates", "mass", "-q", "--report", str(out), "--json"])
+    return code, json.loads(out.read_text())
+
+
+@pytest.mark.parametrize("seed", [3, 12, 26])
+def test_what_is_left_of_the_test_is_paired_with_the_model(tmp_path, seed):
+    """With one mode left out the others were paired otherwise, and the update refused one of them: the diagnosis ended there."""
+    problem = read_deck(storeys(tmp_path, seed))
     kept = related(problem)
     assert 2 <= kept.sum() < COUNT
     begin(replace(problem, test=restricted(problem.test, kept)))
+
+
+def test_modes_that_share_a_shape_are_of_a_motion_that_the_model_lacks(tmp_path):
+    """An error of the test, a false mode, was said to have a probability of more than 0.99."""
+    code, found = answered(storeys(tmp_path, 3), tmp_path)
+    assert (code, found["verdict"]["kind"]) == (1, "unknown")
+    (said,) = [text for text in found["cautions"] if "share a shape" in text]
+    assert said.startswith("Modes 1 with 2") and "floors that turn" in said
+    assert not any("false mode of the identification, of another part" in text for text in found["cautions"])
+    assert "error of the test" not in " ".join(found["verdict"]["sentences"])
+
+
+def test_modes_of_shapes_of_their_own_share_none(tmp_path):
+    """Without an arm, and stiff against turning, floors only sway: every mode is one of the model's."""
+    deck = read_deck(storeys(tmp_path, 3, arm=0.0, stiff=1e3))
+    assert repeated(fit(Model(reduced(deck, deck.prior.mean)), np.zeros(0))) == []
+
+
+def test_pairs_are_of_one_shape_at_frequencies_apart(tmp_path):
+    """Of six modes four are two shapes; of a double mode any two shapes are measured."""
+    deck = read_deck(storeys(tmp_path, 3))
+    model = reduced(deck, deck.prior.mean)
+    assert repeated(fit(Model(model), np.zeros(0))) == [(0, 1), (2, 4)]
+    hz = deck.test.frequency_hz.copy()
+    hz[1] = 1.01 * hz[0]
+    double = fit(Model(model.with_test(replace(deck.test, frequency_hz=hz))), np.zeros(0))
+    assert repeated(double) == [(2, 4)]
