@@ -38,6 +38,9 @@ ODDS = 3.0
 MATERIAL = 3.0
 """Log evidence that each further mechanism of a set, or part of a mechanism, must gain."""
 
+WHOLLY = 0.5
+"""Prior probability that a part which has lost something is gone."""
+
 GATE = REFUTED
 """p-value of a misfit, of a shift of the parameters or of both below which it is not chance."""
 

@@ -1,7 +1,6 @@
 """How well a model predicts data that no fit has seen."""
 
 from dataclasses import dataclass
-from math import comb
 
 import numpy as np
 
@@ -50,19 +49,12 @@ class HeldOut:
     @property
     def within(self) -> float:
         """Probability of so few frequencies within the 90 % intervals of the revised model by chance alone, a binomial one."""
+        from scipy.special import bdtr
+
         count = int(np.isfinite(self.measured_hz).sum())
-        return so_few(round(count * self.revised.covered), count) if count else 1.0
+        return float(bdtr(round(count * self.revised.covered), count, INTERVAL)) if count else 1.0
 
     @property
     def refuted(self) -> bool:
         """Whether data that no fit has seen refute the revised model, however much better than the other it predicts them."""
         return self.p < REFUTED
-
-
-def so_few(within: int, number: int) -> float:
-    """Probability that at most so many of `number` values lie within their 90 % intervals, a binomial one.
-
-    >>> round(so_few(3, 8), 6), so_few(4, 4)
-    (0.000432, 1.0)
-    """
-    return min(1.0, sum(comb(number, i) * INTERVAL**i * (1 - INTERVAL) ** (number - i) for i in range(within + 1)))

@@ -472,3 +472,11 @@ def test_what_was_found_is_what_is_estimated_next(models, name, key, value):
     changed_value = extended.prior.mean * np.append(np.ones(len(extended.parameters) - 1), 1.2)
     one, other = (assembly(extended).matrices(theta) for theta in (extended.prior.mean, changed_value))
     assert any(not np.allclose(dense(a), dense(b), rtol=1e-12, atol=0) for a, b in zip(one, other, strict=True))
+
+
+def test_a_member_that_is_gone_is_called_missing(models):
+    """With its mass, and next to all of it: one that only lost its stiffness, or half of both, is softer."""
+    model = models["frame"]
+    found = {recipe.site(recipe.grid[0]).text.endswith("its mass alike"): recipe for recipe in model.recipes(registry()["member"])}
+    titles = {(alike, share): one.title(np.array([share])) for alike, one in found.items() for share in (0.5, 0.995)}
+    assert titles == {(False, 0.5): "", (False, 0.995): "", (True, 0.5): "", (True, 0.995): "a missing member"}

@@ -1,5 +1,6 @@
 """Mechanisms that most explanations share: rankings made up here."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -154,6 +155,12 @@ def test_modes_refute_what_hardly_one_of_them_is_predicted_by(within, refuted):
     proof = proof_of(BY_MODE, within / 8, float("nan"))
     assert proof.refuted == refuted and proof.p == pytest.approx(binom.cdf(within, 8, 0.9))
     assert not proof_of(BY_DECK, within / 8, 0.01).refuted
+
+
+@pytest.mark.parametrize(("number", "share", "narrow"), [(4, 0.5, False), (4, 0.25, True), (20, 0.65, True)])
+def test_intervals_are_too_narrow_where_so_few_would_hardly_lie_within(number, share, narrow):
+    proof = replace(proof_of(BY_DECK, share, 0.5), measured_hz=np.append(np.ones(number), np.nan))
+    assert (proof.within < 0.01) == narrow
 
 
 @pytest.mark.parametrize("proof", [proof_of(BY_DECK, 1.0, 1e-9), proof_of(BY_MODE, 0.375, float("nan"))])

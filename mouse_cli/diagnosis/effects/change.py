@@ -18,7 +18,6 @@ from mouse_cli.model.unknown import Unknown
 
 PLACE = "place"  # name of an unknown that is a distance along a line of bars, m
 LOST = "share lost"  # name of one that is a share of what a part gives
-WHOLLY = 0.5  # prior probability that a part which has lost something is gone
 
 
 @dataclass(frozen=True)

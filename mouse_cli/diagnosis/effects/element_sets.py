@@ -4,9 +4,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import LOST, WHOLLY, Change, Recipe, Unknown, product, proportional, steps
+from mouse_cli.diagnosis.effects.change import LOST, Change, Recipe, Unknown, product, proportional, steps
 from mouse_cli.diagnosis.extend.matrices import NOTHING, Entries, with_entries, with_part_left
 from mouse_cli.diagnosis.extend.points import found as new_parameter
+from mouse_cli.diagnosis.gates import WHOLLY
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.sets import sets_in
 from mouse_cli.model.arrays import Matrix, upper_triangle

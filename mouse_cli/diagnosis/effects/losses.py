@@ -5,11 +5,12 @@ from collections.abc import Iterable
 import numpy as np
 
 from mouse_cli.diagnosis.effects import element_sets
-from mouse_cli.diagnosis.effects.change import LOST, WHOLLY, Change, Recipe, Unknown
+from mouse_cli.diagnosis.effects.change import LOST, Change, Recipe, Unknown
 from mouse_cli.diagnosis.effects.rows import runs
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.extend.matrices import Entries, of_matrices, with_entries
 from mouse_cli.diagnosis.extend.points import found as new_parameter
+from mouse_cli.diagnosis.gates import WHOLLY
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.lines import elements as in_words

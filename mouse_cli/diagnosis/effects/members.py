@@ -7,10 +7,11 @@ from collections.abc import Callable
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import LOST, WHOLLY, Change, Recipe, Unknown, steps
+from mouse_cli.diagnosis.effects.change import LOST, Change, Recipe, Unknown, steps
 from mouse_cli.diagnosis.effects.element_sets import missing
 from mouse_cli.diagnosis.effects.losses import matrices_of
 from mouse_cli.diagnosis.extend.edit import Edit
+from mouse_cli.diagnosis.gates import WHOLLY
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.bars import displacements

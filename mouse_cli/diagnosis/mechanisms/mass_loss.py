@@ -2,9 +2,10 @@
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.change import LOST, WHOLLY, Recipe, Unknown, proportional
+from mouse_cli.diagnosis.effects.change import LOST, Recipe, Unknown, proportional
 from mouse_cli.diagnosis.effects.losses import matrices_of
 from mouse_cli.diagnosis.extend.edit import Edit
+from mouse_cli.diagnosis.gates import WHOLLY
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.model.diagnosis import Site

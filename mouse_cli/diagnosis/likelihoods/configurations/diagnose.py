@@ -118,8 +118,8 @@ def diagnose_arrangements(
     """
     checked((*fitted.problems, *unseen.problems))
     fitted, unseen, remarks = _on_short_elements(fitted, unseen)
-    fitted, unseen, known = _as_theory_errs(fitted, unseen)
-    sought = Sought(choices, known)
+    fitted, unseen, state = _as_theory_errs(fitted, unseen)
+    sought = Sought(choices, state)
     first = at = _state(fitted, unseen, sought)
     turns: list[Turn] = []
     refuted = ""
@@ -135,7 +135,7 @@ def diagnose_arrangements(
         at = _state(at.fitted.extended(best), at.unseen.extended(best), sought, at)
     held = _held_out(unseen.problems, first.before, at.before if turns else None)
     found = _answer(fitted, first.tests, at, tuple(turns), held, refuted, choices)
-    found = replace(found, remarks=remarks + (known.remarks if known else ()), unsought=sought.refused)
+    found = replace(found, remarks=remarks + (state.remarks if state else ()), unsought=sought.refused)
     return found if found.adequate or found.unchanged or found.unsought else replace(found, field=_field(at))
 
 

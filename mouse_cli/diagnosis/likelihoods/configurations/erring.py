@@ -73,7 +73,7 @@ def _evidence(base: Arranged, which: list[int], tau: float) -> tuple[float, floa
     """ln of the density of the tests of configurations `which`, the parameters and errors of sd tau integrated out, and the
     chi-square of what these leave.
     """
-    errors = Errors(base.errors.modes, tau)
+    errors = base.errors if tau == base.errors.sd else Errors(base.errors.modes, tau)  # those of the stated tau are known
     U, models = np.vstack([errors.U[i] for i in which]), [Model(base.parts[i]) for i in which]
     z, found = base.z, (-np.inf, np.inf)
     for _ in range(_STEPS):
