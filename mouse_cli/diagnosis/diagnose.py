@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -73,7 +74,7 @@ def _by_its_modes(measured: Measured, notice: Notice, choices: Choices) -> Diagn
     housed(model, choices.candidates)
     enough = 0.0 if model.places is None else ENOUGH
     result, remarks = _update(problem, first.kept, notice, _guess(model), enough, first.solver)
-    ranking = rank(model, _known(choices), choices.causes, measured.ranked, jobs=choices.jobs, again=again)
+    ranking = rank(model, _known(choices), choices.causes, measured.ranked, jobs=choices.jobs, again=partial(again, problem))
     ranking = with_forms(informed(ranking))
     verdict, as_it_is = judge(ranking, measured.modes and _rejected(result, model, ranking), model), ranking.baseline
     kind, best, missing = verdict.kind, verdict.best, verdict.kind != NOTHING

@@ -230,8 +230,8 @@ def test_predictions_are_those_of_the_joint_distribution(arranged):
     there = Together(held).point(one.point.x)
     modes = np.arange(1, 6)
     T = one.model.slopes(one.point)
-    U = np.vstack([of_frequencies(part, modes, 0.003) for part in base.parts])
-    B = np.hstack([Together(held).slopes(there), np.vstack([of_frequencies(part, modes, 0.003) for part in held.parts])])
+    U = np.vstack([of_frequencies(part.data, modes, 0.003) for part in base.parts])
+    B = np.hstack([Together(held).slopes(there), np.vstack([of_frequencies(part.data, modes, 0.003) for part in held.parts])])
     A = np.hstack([T, U])  # all unknowns N(0, 1) before the test, about z = 0
     r = np.concatenate([at.residual for at in one.point.points]) + T @ one.point.x  # linearised about z = 0
     h = there.points[0].residual + B[:, :1] @ one.point.x

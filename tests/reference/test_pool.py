@@ -3,6 +3,7 @@
 import subprocess
 import sys
 from concurrent.futures import Future
+from dataclasses import replace
 from math import inf
 
 import numpy as np
@@ -10,11 +11,16 @@ import pytest
 
 import mouse_cli
 from benchmarks.trials.seal import seal
+from mouse_cli.diagnosis.likelihoods.configurations.diagnose import Decks
+from mouse_cli.diagnosis.likelihoods.configurations.model import Together
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
+from mouse_cli.diagnosis.search.descents import best
 from mouse_cli.diagnosis.search.fit import fit
 from mouse_cli.diagnosis.search.handed import known_to_all, packed, unpacked
+from mouse_cli.diagnosis.search.parts import in_turn, single
 from mouse_cli.diagnosis.search.pool import Pool, _perform
 from mouse_cli.diagnosis.search.study import Study
+from tests.reference.test_arrangements import measured
 
 KIND = "several/chain/mass + ground-spring"
 
@@ -39,6 +45,50 @@ def answered(deck, jobs: int) -> bytes:
 def test_answers_are_the_same_whatever_the_number_of_processes(deck):
     one, two, three = (answered(deck, jobs) for jobs in (1, 2, 3))
     assert one == two == three
+
+
+def test_of_a_change_too_and_of_what_theory_errs_with_it(tmp_path):
+    before, after = measured(tmp_path, "before", 1), measured(tmp_path, "after", 2, 0.3)
+    command = [sys.executable, "-m", "mouse_cli", "diagnose", before, "--changed", after, "-q", "--json", "--causes", "2"]
+    command += ["--candidates", "stiffness-loss,mass,ground-spring", "--common-sd", "0.3"]
+    one, two = (subprocess.run([*command, "-j", jobs], capture_output=True, check=False) for jobs in "12")
+    assert one.returncode == 1 and not one.stderr
+    assert (one.stdout, one.stderr) == (two.stdout, two.stderr)
+
+
+def changed(folder) -> Decks:
+    """A chain before and after a spring has lost a third of its stiffness."""
+    paths = measured(folder, "before", 1), measured(folder, "after", 2, 0.3)
+    return Decks(tuple(map(mouse_cli.read_deck, paths)), (False, True), 0.003)
+
+
+def test_what_is_handed_over_of_arrangements_does_the_same(tmp_path):
+    decks = changed(tmp_path)
+    here, there = (Study(replace(decks).model(), None, Together) for _ in range(2))
+    found = best(here, "stiffness-loss")
+    other = unpacked(packed(found, known_to_all(here)), known_to_all(there))
+    assert (other.misfit, other.sites, other.groups) == (found.misfit, found.sites, found.groups)
+    assert other.model.base.parts[0].problem is there.model.parts[0].problem
+    np.testing.assert_array_equal(other.model.point(other.point.x).residual, found.point.residual)
+    np.testing.assert_array_equal(other.model.jacobian(other.point), found.model.jacobian(found.point))
+    assert packed(other, known_to_all(there))  # and can be handed on
+
+
+def test_processes_go_on_by_other_errors_of_theory(tmp_path):
+    """A worker that judges by these finds what one process does."""
+    decks = changed(tmp_path)
+    study = Study(decks.arranged, None, Together)
+    found = single(study, "stiffness-loss", inf)
+    data = study.model.erring_as(found.model.modes(found.point)).data
+    with Pool(study, 2, replace(decks).model) as study.pool:
+        there = study.judged_by(data)
+        fits = []
+        in_turn(there, single, [("stiffness-loss",), ("mass",)], lambda i, one: fits.append(one))
+    alone = Study(decks.arranged, None, Together).judged_by(data)
+    for one, name in zip(fits, ("stiffness-loss", "mass"), strict=True):
+        same = single(alone, name, inf)
+        assert (one.misfit, one.log_evidence) == (same.misfit, same.log_evidence)
+        assert one.misfit != found.misfit
 
 
 class Inline(Pool):

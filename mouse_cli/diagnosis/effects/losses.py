@@ -129,6 +129,21 @@ def matrices_of(model: Reduced, s: int, exchanged: Iterable[tuple[str, str]] = (
     return kind.matrices(layout, properties)
 
 
+class OfSets:
+    """K of the elements of sets (e, 12, 12) at the parameters of any model, found once."""
+
+    def __init__(self) -> None:
+        self._found: dict[tuple[int, bytes], np.ndarray] = {}
+
+    def stiffness(self, model: Reduced, elements: Iterable[tuple[int, int]]) -> np.ndarray:
+        """That of `elements`, by set and place in it."""
+        theta = model.theta.tobytes()
+        for s in {s for s, _ in elements}:
+            if (s, theta) not in self._found:
+                self._found[s, theta] = matrices_of(model, s)["K"]
+        return np.array([self._found[s, theta][i] for s, i in elements])
+
+
 def _node(model: Reduced, n: int) -> np.ndarray:
     """Motion (6, r) of a node, or of a degree of freedom that serves as one."""
     if model.motion is not None:

@@ -9,13 +9,13 @@ import numpy as np
 
 from mouse_cli.diagnosis.effects.change import LOST, Change, Recipe, Unknown, steps
 from mouse_cli.diagnosis.effects.element_sets import missing
-from mouse_cli.diagnosis.effects.losses import matrices_of
+from mouse_cli.diagnosis.effects.losses import OfSets, matrices_of
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.gates import WHOLLY
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.bars import displacements
-from mouse_cli.diagnosis.sites.left_out import loaded
+from mouse_cli.diagnosis.sites.left_out import left_out
 from mouse_cli.diagnosis.sites.members import ONE, SLENDER, Member, members
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.problem import Problem
@@ -46,6 +46,7 @@ def of_members(model: Reduced, candidate: Candidate, sign: int = -1) -> list[Rec
     if model.motion is None:
         return missing(model, candidate) if sign < 0 else []
     parts: dict[int, Part] = {}
+    sets = OfSets()
     found = [(member, energy(model, member, parts)) for member in members(model.problem.mesh)]
     order = np.argsort([-energy for _, energy in found], kind="stable")[:_MOST]
     chosen = [found[i][0] for i in sorted(order.tolist()) if found[i][1] > _HELD]
@@ -55,7 +56,7 @@ def of_members(model: Reduced, candidate: Candidate, sign: int = -1) -> list[Rec
         K, M = (summed(member, parts, which) for which in (1, 2))
         heavy = bool(np.abs(M).max() > 0)
         share = -float(np.log(len(set(kinds)) * kinds.count(member.kind) * (1 + heavy)))
-        beyond = _beyond(model, member, parts, sign)
+        beyond = _beyond(model, member, sets, sign)
         recipes.append(_recipe(candidate, member, (sign * K, beyond), None, sign, share, model.problem))
         if heavy:
             most = np.inf if sign > 0 else _BALANCED
@@ -64,16 +65,11 @@ def of_members(model: Reduced, candidate: Candidate, sign: int = -1) -> list[Rec
     return recipes
 
 
-def _beyond(model: Reduced, member: Member, parts: dict[int, Part], sign: int) -> Beyond:
-    """What a share lost or gained does beyond the coordinates, which follows the stiffness of the member; None: nothing."""
-    u, K = (np.concatenate([parts[s][which][[i]] for s, i in member.elements]) for which in (0, 1))
+def _beyond(model: Reduced, member: Member, sets: OfSets, sign: int) -> Beyond:
+    """What a share lost or gained does beyond the coordinates; None: nothing."""
     nodes = np.array([model.problem.mesh.elements[s].nodes[i] for s, i in member.elements])
-    given = loaded(model.static, member.elements, nodes, K)
-    if given is None:
-        return None
-    left = given.left(u, model.eigenvalues, model.static.shift)
-    scale = float(np.einsum("eii->", K) / np.einsum("eii->", given.K))
-    return lambda share: scale * left.correction(sign * share)
+    left = left_out(model, member.elements, nodes, lambda there: sets.stiffness(there, member.elements))
+    return left and (lambda share: left.correction(sign * share))
 
 
 def softening(model: Reduced) -> np.ndarray:

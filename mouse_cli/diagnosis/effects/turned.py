@@ -9,7 +9,7 @@ from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.bars import displacements
-from mouse_cli.diagnosis.sites.left_out import loaded
+from mouse_cli.diagnosis.sites.left_out import left_out
 from mouse_cli.diagnosis.sites.members import ALIKE, Element, Member, members
 from mouse_cli.model.mesh import Mesh
 from mouse_cli.model.problem import Problem
@@ -64,12 +64,15 @@ def _turned(model: Reduced, s: int) -> Part:
 def _recipe(model: Reduced, candidate: Candidate, member: Member, parts: dict[int, Part], log_prior: float) -> Recipe:
     mesh, site = model.problem.mesh, member.site
     numbers = [int(mesh.elements[s].ids[i]) for s, i in member.elements]
-    u, K = (np.concatenate([parts[s][which][[i]] for s, i in member.elements]) for which in (0, 1))
     nodes = np.array([mesh.elements[s].nodes[i] for s, i in member.elements])
-    given = loaded(model.static, ("turned", member.elements), nodes, K)
-    added = summed(member, parts, 1)
-    if given is not None:
-        added = added + given.left(u, model.eigenvalues, model.static.shift).correction(1.0)
+
+    def turned(there: Reduced) -> np.ndarray:
+        whole = {s: _turned(there, s)[1] for s in {s for s, _ in member.elements}}
+        return np.array([whole[s][i] for s, i in member.elements])
+
+    left, added = left_out(model, ("turned", member.elements), nodes, turned), summed(member, parts, 1)
+    if left is not None:
+        added = added + left.correction(1.0)
     change = Change(added, summed(member, parts, 2))
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:

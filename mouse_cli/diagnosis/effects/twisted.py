@@ -5,10 +5,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change
-from mouse_cli.diagnosis.effects.losses import matrices_of
+from mouse_cli.diagnosis.effects.losses import OfSets, matrices_of
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
-from mouse_cli.diagnosis.sites.bars import Bars, displacements
-from mouse_cli.diagnosis.sites.left_out import Left, loaded
+from mouse_cli.diagnosis.sites.bars import Bars
+from mouse_cli.diagnosis.sites.left_out import Left, left_out
 from mouse_cli.terms.elements import _beam as beam
 
 _TURNS = [3, 4, 5, 9, 10, 11]  # of the motions of two nodes
@@ -30,27 +30,23 @@ class Torsion:
 def torsion(model: Reduced, chosen: list[int]) -> dict[int, Torsion]:
     """Of the bars `chosen` those that the coordinates twist, by number."""
     bars, found = model.bars, {}
-    whole = {s: matrices_of(model, s) for s in {int(bars.set[bar]) for bar in chosen}}
+    whole, sets = {s: matrices_of(model, s) for s in {int(bars.set[bar]) for bar in chosen}}, OfSets()
     for bar in chosen:
         axis, element = np.tile(bars.axis[bar], 2), (int(bars.set[bar]), int(bars.member[bar]))
         K, M = (whole[element[0]][name][element[1]][np.ix_(_TURNS, _TURNS)] for name in "KM")
         GJ, polar = float(axis[:3] @ K[3:, 3:] @ axis[:3]), float(axis @ M @ axis)
         if GJ > 0 and np.abs(np.diff(bars.twist[bar], axis=0)).max() > _STILL * np.abs(bars.twist[bar]).max():
-            found[bar] = Torsion(GJ, polar / float(bars.length[bar]), _left_out(model, bar, element, GJ))
+            found[bar] = Torsion(GJ, polar / float(bars.length[bar]), _left_out(model, bar, element, sets))
     return found
 
 
-def _left_out(model: Reduced, bar: int, element: tuple[int, int], GJ: float) -> Left | None:
+def _left_out(model: Reduced, bar: int, element: tuple[int, int], sets: OfSets) -> Left | None:
     """See `Torsion`."""
     angle = np.zeros(12)
     angle[_TURNS] = np.concatenate([-model.bars.axis[bar], model.bars.axis[bar]])
-    nodes = model.bars.nodes[[bar]]
-    given = loaded(model.static, ("torsion", element), nodes, GJ * np.outer(angle, angle)[None])
-    return (
-        None
-        if given is None
-        else given.left(displacements(model.motion, nodes, model.V), model.eigenvalues, model.static.shift)
-    )
+    twist = np.outer(angle, angle)[None]
+    GJ = lambda there: angle @ sets.stiffness(there, [element])[0] @ angle / 4  # of both ends against one another by 1 each
+    return left_out(model, ("torsion", element), model.bars.nodes[[bar]], lambda there: GJ(there) * twist)
 
 
 def twisted(beside: Change, bars: Bars, bar: int, share: float, own: Torsion, k: float) -> Change:

@@ -10,17 +10,17 @@ from functools import partial
 from typing import Any
 
 from mouse_cli.diagnosis.effects.change import Recipe
-from mouse_cli.diagnosis.likelihoods.modal.model import Model
-from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.likelihoods.modal.given import Given
 
 _MADE = ("change", "site", "extend", "limit", "title")  # functions of a recipe
+_OF_PARTS = ("problem", "assembly", "static", "finer", "data", "built_once")  # what stays the same of a part of a model
 
 
 @dataclass(frozen=True)
 class Again:
     """Function `name` of recipe `number` of a candidate for a model, made when it is called."""
 
-    home: Reduced
+    home: Any
     candidate: Any
     number: int
     name: str
@@ -34,13 +34,17 @@ class Again:
 
 
 def known_to_all(study) -> dict[str, Any]:
-    """What every process of a pool has, by name."""
-    model = study.model
-    shared = {name: getattr(model, name) for name in ("problem", "assembly", "static", "finer", "data")}
-    return {name: value for name, value in shared.items() if value is not None} | {
-        "model": model,
-        "once": model.built_once,
-    }
+    """What every process of a pool has, by name: the model, all arrangements of which it is made, and what theory errs in them."""
+    model, shared = study.model, {}
+    for i, part in enumerate(parts(model)):
+        shared |= {f"{name} of {i}": getattr(part, name) for name in _OF_PARTS} | {f"part {i}": part}
+    shared |= {"errors": getattr(model, "errors", None), "model": model}
+    return {name: value for name, value in shared.items() if value is not None}
+
+
+def parts(model) -> tuple:
+    """Reduced models of the arrangements of which a model is made; itself, where it is one structure."""
+    return getattr(model, "parts", (model,))
 
 
 def packed(found: Any, shared: dict[str, Any]) -> bytes:
@@ -69,16 +73,14 @@ class _Pickler(pickle.Pickler):
 
     def reducer_override(self, one: Any) -> Any:
         if isinstance(one, Recipe):
-            return _recipe, (_state(one),)
-        if isinstance(one, Model):
-            return type(one), (one.base, one.recipes), {"_slopes": one._slopes}
-        if isinstance(one, Reduced):
-            return type(one), tuple(getattr(one, each.name) for each in fields(one))
+            return _recipe, (type(one), _state(one))
+        if isinstance(one, Given):
+            return type(one), one.given
         return NotImplemented
 
 
-def _recipe(state: dict[str, Any]) -> Recipe:
-    return Recipe(**state)
+def _recipe(kind: type[Recipe], state: dict[str, Any]) -> Recipe:
+    return kind(**state)
 
 
 def _state(recipe: Recipe) -> dict[str, Any]:

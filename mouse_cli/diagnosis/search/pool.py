@@ -15,11 +15,9 @@ from functools import partial
 from multiprocessing import connection
 from typing import Any
 
-from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import registry
-from mouse_cli.diagnosis.search.handed import known_to_all, packed, unpacked
+from mouse_cli.diagnosis.search.handed import known_to_all, packed, parts, unpacked
 from mouse_cli.diagnosis.search.study import Study
-from mouse_cli.model.problem import Problem
 
 _AHEAD = 3  # parts for each process, in hand or waiting
 _THREADS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS")
@@ -32,10 +30,10 @@ Task = Callable[..., Any]
 class Pool:
     """`jobs` processes for a study; entered, it is None where there is but one, which does all by itself.
 
-    again: makes the model of the study from its problem once more, a function of a module; None: that cannot be.
+    again: makes the model of the study once more, wherever it is handed to; None: that cannot be.
     """
 
-    def __init__(self, study: Study, jobs: int, again: Callable[[Problem], Reduced] | None = None):
+    def __init__(self, study: Study, jobs: int, again: Callable[[], Any] | None = None):
         self.study, self.shared = study, {}
         self._workers: list[ProcessPoolExecutor] = []
         self._loads = [0] * jobs
@@ -44,7 +42,7 @@ class Pool:
         self.shared = known_to_all(study)
         # the same on every system; a copy of this process might wait for its threads
         fresh = multiprocessing.get_context("spawn")
-        given = (study.model.problem, again, study.model.V.tobytes(), tuple(study.known))
+        given = (again, study.kind, _coordinates(study.model), tuple(study.known))
         begin = partial(ProcessPoolExecutor, 1, mp_context=fresh, initializer=_begin, initargs=given)
         self._workers = [begin() for _ in range(jobs)]
 
@@ -59,6 +57,12 @@ class Pool:
         """Every process does `task`."""
         for worker in self._workers:
             worker.submit(_perform, task, given)
+
+    def judged_by(self, study: Study, data: Any) -> "Pool":
+        """The same processes from here on, each with its study judged by errors `data`, as `study` is."""
+        self.broadcast(judge, packed(data, self.shared))
+        self.study, self.shared = study, known_to_all(study)
+        return self
 
     def in_turn(
         self,
@@ -99,16 +103,27 @@ class Pool:
         return future.again() if found is None else unpacked(found, self.shared)
 
 
-def _begin(problem: Problem, again: Callable[[Problem], Reduced], V: bytes, known: tuple[str, ...]) -> None:
+def _begin(again: Callable[[], Any], kind: type, coordinates: tuple[bytes, ...], known: tuple[str, ...]) -> None:
     """Make the study of this process, which is none where its model is not that of the others to the last bit."""
     global _own
     for name in _THREADS:
         os.environ.setdefault(name, "1")
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     threading.Thread(target=_end_with_parent, daemon=True).start()
-    model = again(problem)
-    if model.V.tobytes() == V:
-        _own = Study(model, {key: registry()[key] for key in known})
+    model = again()
+    if _coordinates(model) == coordinates:
+        _own = Study(model, {key: registry()[key] for key in known}, kind)
+
+
+def _coordinates(model: Any) -> tuple[bytes, ...]:
+    """By what models are the same to the last bit."""
+    return tuple(part.V.tobytes() for part in parts(model))
+
+
+def judge(study: Study, data: bytes) -> None:
+    """From here on this process judges by errors `data`."""
+    global _own
+    _own = study.judged_by(unpacked(data, known_to_all(study)))
 
 
 def _perform(task: Task, given: tuple) -> bytes | None:

@@ -35,7 +35,6 @@ from mouse_cli.diagnosis.search.several import FURTHER, enough, plain, several
 from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.model.diagnosis import LAW, Untried
 from mouse_cli.model.groups import joined, shares
-from mouse_cli.model.problem import Problem
 from mouse_cli.model.shared_place import panels, together
 from mouse_cli.model.site import gap
 from mouse_cli.updating.chi_square import upper_tail
@@ -167,7 +166,7 @@ def rank(
     kind: type[Model] = Model,
     last: bool = True,
     jobs: int = 1,
-    again: Callable[[Problem], Reduced] | None = None,
+    again: Callable[[], Reduced] | None = None,
 ) -> Ranking:
     """All that the candidates (`known`; None: all) make of the data, at most `causes` of them together.
 

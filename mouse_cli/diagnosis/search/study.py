@@ -122,7 +122,9 @@ class Study(Looks):
 
     def judged_by(self, data) -> "Study":
         """The same by errors that theory has with what leads in it; what was looked at is of others."""
-        return Study(self.model.judged_by(data), self.known, self.kind)
+        there = Study(self.model.judged_by(data), self.known, self.kind)
+        there.pool = self.pool and self.pool.judged_by(there, data)
+        return there
 
     def about(self, one: Fit) -> "Study":
         """The same at parameters from which those of a fit differ by no more than a trifle.

@@ -10,10 +10,13 @@ One element has but six strains, of which the modes leave none out: for it this 
 the residual flexibility R = b'A^-1 b - b'V (V'A V)^-1 V'b is felt as k / (1 + k R).
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
+from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
+from mouse_cli.diagnosis.sites.bars import displacements
 from mouse_cli.diagnosis.sites.residual import NUMBERS, Static
 from mouse_cli.diagnosis.sites.strains import sparse_rows
 
@@ -56,11 +59,25 @@ class Loaded:
         return Left(U.T @ pushed @ Q, np.maximum(s, _FULL))
 
 
-def loaded(static: Static | None, key: tuple, nodes: np.ndarray, K: np.ndarray) -> Loaded | None:
-    """The member `key` with nodes (e, 2) and K (e, 12, 12); found once, None where it is too large to be."""
-    if static is None or static.modes.size * max(len(K), 1) > NUMBERS:
+def left_out(model: Reduced, key: tuple, nodes: np.ndarray, stiffness: Callable[[Reduced], np.ndarray]) -> Left | None:
+    """Of the member `key` with nodes (e, 2), K (e, 12, 12) the `stiffness` of a model; what its neighbours do follows that.
+
+    None where it is too large.
+    """
+    given = _loaded(model.static, key, nodes, lambda: stiffness(model.taken))
+    if given is None:
+        return None
+    left = given.left(displacements(model.motion, nodes, model.V), model.eigenvalues, model.static.shift)
+    grown = 1.0 if model.origin is None else np.linalg.norm(stiffness(model)) / np.linalg.norm(given.K)
+    return Left(left.g * np.sqrt(grown), left.s)
+
+
+def _loaded(static: Static | None, key: tuple, nodes: np.ndarray, stiffness: Callable[[], np.ndarray]) -> Loaded | None:
+    """The member where all static motion is of, found once."""
+    if static is None or static.modes.size * max(len(nodes), 1) > NUMBERS:
         return None
     if key not in static.kept:
+        K = stiffness()
         rows = sparse_rows(static.motion, (6 * nodes[:, :, None] + np.arange(6)).ravel())
         u = (rows @ static.modes).reshape(len(K), 12, -1)
         H = (K @ u).reshape(rows.shape[0], -1)

@@ -60,6 +60,10 @@ class Decks:
         parts = tuple(lowest_of(each.model, has) for each, has in pairs)
         return Arranged(parts, self.common_sd, self.having, self.erring)
 
+    def model(self) -> Arranged:
+        """The same, made once more by another process."""
+        return self.arranged
+
     @cached_property
     def meshed(self) -> tuple[Meshed, ...]:
         """The model of each, corrected for its mesh."""
@@ -220,7 +224,10 @@ def _state(fitted: Decks, unseen: Decks, sought: Sought, last: State | None = No
     if changed and (sought.refused or (over and not unseen.problems)):
         untried = () if last is None else last.ranking.untried
         return State(fitted, unseen, replace(ranking(none, [none]), untried=untried), _predicted(none, unseen), tests)
-    found = rank(fitted.arranged, sought.known, sought.choices.causes if changed else 1, by_leading, kind=Together, last=changed)
+    causes, again = sought.choices.causes if changed else 1, replace(fitted).model
+    found = rank(
+        fitted.arranged, sought.known, causes, by_leading, kind=Together, last=changed, jobs=sought.choices.jobs, again=again
+    )
     return State(fitted, unseen, found, _predicted(none, unseen), tests)
 
 

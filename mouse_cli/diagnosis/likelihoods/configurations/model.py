@@ -13,6 +13,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe
 from mouse_cli.diagnosis.likelihoods.configurations.shared import Errors, Modes
+from mouse_cli.diagnosis.likelihoods.modal.given import Given
 from mouse_cli.diagnosis.likelihoods.modal.lowest import lowest
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.point import Left, Point
@@ -61,7 +62,7 @@ class SharedData:
 
 
 @dataclass(frozen=True)
-class Arranged:
+class Arranged(Given):
     """Reduced models (a,) of the arrangements; common_sd: tau, of ln f, in every mode; having (a,): which have what is sought.
 
     erring: what theory errs in all alike, of the models before anything that was found came into the decks; None: of these. slack:
@@ -127,7 +128,7 @@ class Arranged:
     def recipes(self, candidate: Candidate) -> list[SharedRecipe]:
         """What `candidate` can do to all arrangements alike; nothing where they differ in where it can act."""
         pairs = zip(self.parts, self.having, strict=True)
-        found = [candidate.recipes(part, candidate) if has else None for part, has in pairs]
+        found = [_made(part, candidate) if has else None for part, has in pairs]
         counts = {len(each) for each in found if each is not None}
         if len(counts) != 1:
             return []
@@ -191,6 +192,11 @@ def lowest_of(part: Reduced, has: bool) -> Reduced:
     return lowest(part, max(_COORDINATES, _TIMES * int(part.data.test.number.max())), has)
 
 
+def _made(part: Reduced, candidate: Candidate) -> list[Recipe]:
+    """What a candidate can do to one arrangement; each of its recipes knows which of that model it is."""
+    return [replace(recipe, number=i, home=part) for i, recipe in enumerate(part.recipes(candidate))]
+
+
 def _shared(each: tuple[Recipe | None, ...]) -> SharedRecipe:
     like = next(one for one in each if one)
     first = SharedRecipe(**{one.name: getattr(like, one.name) for one in fields(Recipe) if one.init}, each=each)
@@ -221,8 +227,10 @@ class Points(Left):
         return tuple(turn for at in self.points for turn in at.turns)
 
 
-class Together:
+class Together(Given):
     """Arrangements with causes that they share: what `fit` and `Study` need of a model."""
+
+    made_of = "base", "recipes"
 
     def __init__(self, base: Arranged, recipes: tuple[SharedRecipe, ...] = ()):
         self.base, self.recipes = base, recipes

@@ -18,6 +18,7 @@ from functools import cached_property
 
 import numpy as np
 
+from mouse_cli.diagnosis.likelihoods.modal.data import Data
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
@@ -37,7 +38,7 @@ class Modes:
     model: K and M (n, n) that err. origin: the modes of these, where a mechanism that was not given has changed them.
     """
 
-    part: Reduced
+    data: Data
     model: tuple[Matrix, Matrix]
     eigenvalues: np.ndarray
     motion: np.ndarray
@@ -51,7 +52,7 @@ class Modes:
         k = min(part.r, 2 * int(part.data.test.number.max()) + _BEYOND)
         lam, motion = np.maximum(part.eigenvalues[:k], 0.0), part.V[:, :k]
         seen = read(part.problem.test.measured_at, motion)
-        return cls(part, part.assembly.matrices(part.theta), lam, motion, seen, part.data.pair(lam, seen))
+        return cls(part.data, part.assembly.matrices(part.theta), lam, motion, seen, part.data.pair(lam, seen))
 
     def at(self, model: Model, point: Point) -> "Modes | None":
         """The same as mechanisms in it have them; None where their model is not the one that errs."""
@@ -87,14 +88,14 @@ class Errors:
     @cached_property
     def numbers(self) -> np.ndarray:
         """Numbers (n,) of the measured modes."""
-        return np.unique(np.concatenate([own.part.data.test.number for own in self.modes]))
+        return np.unique(np.concatenate([own.data.test.number for own in self.modes]))
 
     @cached_property
     def U(self) -> list[np.ndarray]:
         """What the errors, in their sd, do to the whitened data (q, n + c) of each arrangement; the first n are those of
         frequencies, by number of the mode.
         """
-        found, further = [frequencies(own.part, self.numbers, self.sd) for own in self.modes], []
+        found, further = [frequencies(own.data, self.numbers, self.sd) for own in self.modes], []
         for members in self.alike:
             group = [self.modes[i] for i in members]
             first, known = group[0].given, _known(group, self.numbers)
@@ -140,9 +141,8 @@ class Errors:
         return U @ W[:, felt], 1 / (length * (1 + length)), float(2 * np.log(length).sum())
 
 
-def frequencies(part: Reduced, numbers: np.ndarray, sd: float) -> np.ndarray:
+def frequencies(data: Data, numbers: np.ndarray, sd: float) -> np.ndarray:
     """U (q, n) of the frequencies of one arrangement, each mode of which errs by itself."""
-    data = part.data
     rows = np.flatnonzero(data.has_frequency)
     found = np.zeros((len(data.modes), len(numbers)))
     found[np.arange(len(rows)), np.searchsorted(numbers, data.test.number[rows])] = sd / data.sd_log[rows]
@@ -155,7 +155,7 @@ def _known(group: list[Modes], numbers: np.ndarray) -> dict[int, int]:
     first = group[0].given
     for own in group:
         nearest = np.abs(own.within(first)[:, own.which]).argmax(axis=0)
-        places = np.searchsorted(numbers, own.part.data.test.number)
+        places = np.searchsorted(numbers, own.data.test.number)
         for mode, place in zip(nearest.tolist(), places.tolist(), strict=True):
             if mode not in found and place not in found.values():
                 found[mode] = place
@@ -164,7 +164,7 @@ def _known(group: list[Modes], numbers: np.ndarray) -> dict[int, int]:
 
 def _by_matrix(own: Modes, first: Modes, i: np.ndarray, j: np.ndarray, sd: float) -> np.ndarray:
     """U (q, c) of one arrangement by the elements (i, j) (c,) of E in the modes `first` of the model."""
-    data, n, mu, lam = own.part.data, own.which, np.maximum(own.eigenvalues, 0.0), first.eigenvalues
+    data, n, mu, lam = own.data, own.which, np.maximum(own.eigenvalues, 0.0), first.eigenvalues
     C = own.within(first)
     size = np.sqrt(2 * lam[i] * lam[j]) * sd  # on the diagonal, where both products are one, half of E_ii
     size[i == j] /= np.sqrt(2)
@@ -179,7 +179,7 @@ def _by_matrix(own: Modes, first: Modes, i: np.ndarray, j: np.ndarray, sd: float
 
 def _scales(own: Modes) -> np.ndarray:
     """Scales (m,) by which the shapes of the model are as long as the measured ones, and of their sign."""
-    data = own.part.data
+    data = own.data
     f, y = np.where(data.has_shape, own.seen[:, own.which], 0.0), np.where(data.has_shape, data.test.shapes, 0.0)
     size = np.linalg.norm(f, axis=0)
     length = np.linalg.norm(y, axis=0) / np.maximum(size, max(_UNSEEN * size.max(initial=0.0), 1e-100))

@@ -8,13 +8,14 @@ derivatives of the measured modes by the parameters.
 from collections.abc import Callable, Hashable
 from copy import copy
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
 from mouse_cli.diagnosis.likelihoods.modal.data import Data
 from mouse_cli.diagnosis.likelihoods.modal.directions import Directions, directions, projected
 from mouse_cli.diagnosis.likelihoods.modal.finer import Finer, refined
+from mouse_cli.diagnosis.likelihoods.modal.given import Given
 from mouse_cli.diagnosis.sites.bars import Bars, bars, motion_of, stiffening
 from mouse_cli.diagnosis.sites.residual import Static, static
 from mouse_cli.dynamics.contraction import Stack
@@ -33,7 +34,7 @@ _BEYOND = 6  # modes that are corrected for their mesh, beyond twice those of th
 
 
 @dataclass(frozen=True)
-class Reduced:
+class Reduced(Given):
     """theta (p,): where causes are weighed. eigenvalues (r,) where V is taken: there, or at `origin` (p,). dK, dM (k, r, r):
     derivatives along `directions` (p, k) of theta.
 
@@ -162,6 +163,11 @@ class Reduced:
             return found
         return replace(found, residual=self.static.left(found, self.eigenvalues))
 
+    @property
+    def taken(self) -> "Reduced":
+        """The same where V and all static motion is of: what is kept of these is asked for there, whoever asks first."""
+        return self if self.origin is None else replace(self, theta=self.origin, origin=None)
+
     @cached_property
     def stiffening(self) -> np.ndarray:
         """d ln EI / dz (b, k) of the bars: what softens them follows their stiffness."""
@@ -280,7 +286,7 @@ def exact(problem: Problem, total: Assembly, K: Matrix, M: Matrix, theta: np.nda
         return model
     shift = -0.3 * model.least_elastic
     factor = cho_factor(K - shift * M)
-    by_all = static(problem, model.motion, model.bars, shift, lambda loads: cho_solve(factor, loads), V[:, : model.low_modes(2)])
+    by_all = static(problem, model.motion, model.bars, shift, partial(cho_solve, factor), V[:, : model.low_modes(2)])
     return replace(model, static=by_all)
 
 
