@@ -258,6 +258,7 @@ LONG: dict[str, tuple[str, ...]] = {
         "test_sensitivities_of_a_long_beam[2000-1e-06-from nothing]",
         "test_sensitivities_of_a_long_beam[2000-1e-06-from the same modes]",
     ),
+    "reference/test_state_before.py": ("test_nothing_is_sought_in_a_model_that_explains_nothing",),
     "reference/test_subspace.py": ("test_of_many_parameters_the_directions_that_data_see_are_kept",),
     "reference/test_support_ranges.py": (
         "test_it_is_named[support-rotation-666.6666666666667-None]", "test_it_is_named[support-translation-None-0.0]",

@@ -79,12 +79,13 @@ def diagnosed(
     choices: Choices,
 ) -> ArrangementsDiagnosis:
     """What arrangements lack; common_sd in per cent, None: as the decks state it."""
-    from mouse_cli.diagnosis.likelihoods.configurations.diagnose import Decks, diagnose_arrangements
+    from mouse_cli.diagnosis.changes import diagnose_changes
+    from mouse_cli.diagnosis.likelihoods.configurations.diagnose import Decks
 
     shared = problems[0].theory.configurations if common_sd is None else common_sd / 100
     fitted = Decks(problems, named.having(named.fitted), shared)
     held = Decks(unseen, named.having(named.unseen), shared)
-    return diagnose_arrangements(fitted, held, say, choices)
+    return diagnose_changes(fitted, held, say, choices)
 
 
 def written(found: ArrangementsDiagnosis, folder: str) -> list[str]:
@@ -92,12 +93,14 @@ def written(found: ArrangementsDiagnosis, folder: str) -> list[str]:
     from mouse_cli.formats import write_deck
 
     files: list[str] = []
-    if found.extended:
+    decks = found.extended or (found.problems if found.begun else ())
+    if decks:
         os.makedirs(folder, exist_ok=True)
     having = found.changed or (True,) * len(found.problems)
-    for given, deck, has in zip(found.problems, found.extended, having, strict=False):
-        if not has:
+    for given, deck, has in zip(found.problems, decks, having, strict=False):
+        if not has and not found.begun:
             continue  # its parameters of the cause would be bound to nothing
+        deck = deck if has else given
         name = os.path.splitext(os.path.basename(given.source.path))[0] + ".yaml"
         files.append(write_deck(deck, os.path.join(folder, name))[-1])
     return files

@@ -60,15 +60,17 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None, choices: Choi
     if by_records(problem):
         return measured.laws(notice, choices)
     try:
-        found = _by_its_modes(measured, notice, choices)
+        found, _ = by_its_modes(measured, notice, choices)
     except np.linalg.LinAlgError as reason:  # values that span too many powers of ten for any algebra
         raise refusals.unphysical(problem, str(reason)) from None
     by_laws = measured.laws(notice, choices) if found.kind == NOTHING else None
     return found if by_laws is None else replace(by_laws, remarks=found.remarks + by_laws.remarks)
 
 
-def _by_its_modes(measured: Measured, notice: Notice, choices: Choices) -> Diagnosis:
-    """The same by measured modes, or those that measured functions show, with all that was measured beside them."""
+def by_its_modes(measured: Measured, notice: Notice, choices: Choices) -> tuple[Diagnosis, Fit | None]:
+    """The same by measured modes, or those that measured functions show, with all that was measured beside them; and the fit
+    of what is missing.
+    """
     first = begun(measured, notice)
     measured, problem, model = first.measured, first.problem, first.model
     housed(model, choices.candidates)
@@ -81,7 +83,7 @@ def _by_its_modes(measured: Measured, notice: Notice, choices: Choices) -> Diagn
     location = locate(as_it_is.model.base) if missing and as_it_is.model.base.data.by_shape else None
     put = best if kind in (NAMED, ONE_OF) else verdict.field
     deck, of_deck, unfit = _extended(problem, put)
-    return Diagnosis(
+    answer = Diagnosis(
         problem=problem,
         kind=kind,
         result=result,
@@ -104,6 +106,7 @@ def _by_its_modes(measured: Measured, notice: Notice, choices: Choices) -> Diagn
         **_tried(ranking),
         **measured.compared(ranking, best if missing else None),
     )
+    return answer, put
 
 
 def _extended(problem: Problem, put: Fit | None) -> tuple[Problem | None, np.ndarray | None, tuple[str, ...]]:

@@ -12,6 +12,7 @@ from mouse_cli.model.diagnosis import (
     RIVAL,
     UNKNOWN,
     Choices,
+    Diagnosis,
     Explanation,
     Field,
     HeldOut,
@@ -110,7 +111,7 @@ class ArrangementsDiagnosis(Shown):
     rest: what was tried beside all of them and is not demanded, that without a further cause first. held_out: arrangements that no
     fit has seen, before the first cause and after the last. field: physics without a name where the answer is UNKNOWN; untried:
     candidates left out. tests: those before and after, each beside the other; None where they cannot be compared. unsought: why no
-    change was sought, in a sentence; empty: one was.
+    change was sought, in a sentence; empty: one was. state: what the state before lacks by itself, where that was asked.
     """
 
     problems: tuple[Problem, ...]
@@ -134,6 +135,7 @@ class ArrangementsDiagnosis(Shown):
     untried: tuple[Untried, ...] = ()
     tests: Compared | None = None
     unsought: str = ""
+    state: Diagnosis | None = None
 
     @property
     def problem(self) -> Problem:
@@ -165,6 +167,11 @@ class ArrangementsDiagnosis(Shown):
         return self.tests is not None and self.tests.alike and not self.turns
 
     @property
+    def begun(self) -> bool:
+        """Whether what the state before lacks is in all of `problems`."""
+        return self.state is not None and not self.unsought
+
+    @property
     def remaining(self) -> Rest | None:
         """What remains of the misfit of the model as it is where causes were found and do not explain all; else None."""
         if self.adequate or not self.turns:
@@ -174,4 +181,4 @@ class ArrangementsDiagnosis(Shown):
     @property
     def exit_code(self) -> int:
         """0: nothing is missing; 1: something is."""
-        return 0 if self.kind == NOTHING else 1
+        return 0 if self.kind == NOTHING and not self.begun else 1

@@ -14,7 +14,7 @@ from mouse_cli.report.diagnosis_document import candidate
 from mouse_cli.report.geometry_document import geometry
 from mouse_cli.report.json_values import fields
 from mouse_cli.report.theory import document as theory
-from mouse_cli.report.verdict_document import elsewhere, field, rest, score, site, untried
+from mouse_cli.report.verdict_document import elsewhere, field, rest, score, site, untried, verdict
 
 SCHEMA = "mouse.arrangements/1"
 
@@ -32,6 +32,7 @@ def document(found: ArrangementsDiagnosis) -> dict[str, Any]:
         "turns": [_turn(turn, found.kind != UNKNOWN) for turn in found.turns],
         "rest": [candidate(found.rest[0], one, found.kind != UNKNOWN) for one in found.rest],
         "residual": fields(found, "chi2", "dof", "p"),
+        "state": None if found.state is None else {"in_all_decks": found.begun, "verdict": verdict(found.state)},
         "tests": None if found.tests is None else fields(found.tests, "chi2", "dof", "p"),
         "parameters": [
             {"name": p.name, "unit": p.unit, "prior": p.nominal, "posterior": value, "sd": sd}

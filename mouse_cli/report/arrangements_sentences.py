@@ -18,6 +18,7 @@ from mouse_cli.report.sections._diagnosis_wording import (
     within,
 )
 from mouse_cli.report.verdict_sentences import remains
+from mouse_cli.report.verdict_sentences import sentences as of_one
 
 _VERDICTS = {
     NOTHING: "Nothing is missing that these configurations could show: the model, with its parameters revised, explains them.",
@@ -26,14 +27,32 @@ _VERDICTS = {
     "remains may be noise.",
     UNKNOWN: "More remains than noise, and no candidate explains it. Do not trust the revised parameters.",
 }
+_BY_ITSELF = "Diagnose one of the decks before by itself, and put what it lacks into all decks."
 _EVEN = 0.5  # probability of no mechanism up to which one is called likely
 
 
 def sentences(found: ArrangementsDiagnosis) -> tuple[str, ...]:
-    """What was found, then one paragraph a mechanism in the order of its identification."""
+    """What the state before lacks, if that was asked; what was found, then one paragraph a mechanism in the order of its
+    identification.
+    """
+    return (*_state(found), *_sought(found))
+
+
+def _state(found: ArrangementsDiagnosis) -> Iterator[str]:
+    """What the state before lacks by itself, and whether a change was sought beside that."""
+    if found.state is None:
+        return
+    first, *others = of_one(found.state)
+    yield f"The model does not explain the state before. Diagnosed by itself: {first}"
+    yield from others
+    if found.begun:
+        yield "With that in all decks, of what has changed since:"
+
+
+def _sought(found: ArrangementsDiagnosis) -> tuple[str, ...]:
     first = list(_unchanged(found)) if found.unchanged else [_VERDICTS[found.kind]]
     if found.kind == UNKNOWN and found.unsought:
-        first = [found.unsought, "Do not trust the revised parameters."]
+        first = [found.unsought, *([] if found.state else [_BY_ITSELF]), "Do not trust the revised parameters."]
     elif found.kind == UNKNOWN and found.field is not None:
         first = list(field_sentences(found.field))
     elif found.remaining is not None:

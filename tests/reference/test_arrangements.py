@@ -69,15 +69,19 @@ SCATTER = np.array([4.0, -3.0, 2.5, -4.0, 1.5, 3.0, -2.0, 3.5]) / 100  # of each
 SENSORS = (1, 3, 4, 6, 8)
 
 
-def measured(folder: Path, name: str, seed: int, lost: float = 0.0, at: int = 4, errors: float = 1.0) -> str:
+def measured(
+    folder: Path, name: str, seed: int, lost: float = 0.0, at: int = 4, errors: float = 1.0, ground: float = 0.0
+) -> str:
     """A deck whose model has eight like springs, with modes of a chain whose springs scatter; lost: share of spring `at`.
 
-    errors: times those of the test and the scatter.
+    errors: times those of the test and the scatter. ground: stiffness of a spring at node 6 that is in no model.
     """
     springs = K * (1 + errors * SCATTER)
     springs[at - 1] *= 1 - lost
     beside = np.diag(springs[1:], 1)
-    values, shapes = np.linalg.eigh(np.diag(springs + np.append(springs[1:], 0.0)) - beside - beside.T)
+    stiff = np.diag(springs + np.append(springs[1:], 0.0)) - beside - beside.T
+    stiff[5, 5] += ground
+    values, shapes = np.linalg.eigh(stiff)
     rng = np.random.default_rng(seed)
     hz = np.sqrt(values[:5] / MASS) / (2 * np.pi) * np.exp(errors * NOISE * rng.standard_normal(5))
     seen = shapes[np.array(SENSORS) - 1, :5]

@@ -76,14 +76,15 @@ def answered(folder, *decks: str, more: tuple[str, ...] = ()) -> tuple[int, dict
 
 def test_nothing_is_sought_in_a_model_that_explains_nothing(tmp_path, monkeypatch):
     """Masses that are other ones altogether: no size of errors of theory makes that."""
-    monkeypatch.setattr(diagnose, "rank", None)
+    monkeypatch.setattr(diagnose, "rank", None)  # of configurations
     decks = [measured(tmp_path, *each) for each in (("before", 1), ("after", 2, 0.3))]
     for path in decks:
         edited(path, "nodes: 1-8, mass: 1.0", OTHER_MASSES)
-    code, found = answered(tmp_path, *decks)
+    code, found = answered(tmp_path, *decks, more=("--candidates", "stiffness-loss,ground-spring", "--causes", "1"))
     assert (code, found["verdict"]["kind"], found["turns"]) == (1, "unknown", [])
-    said = found["verdict"]["sentences"][0]
-    assert "does not explain the state before" in said and "Diagnose that state by itself" in said
+    assert not found["state"]["in_all_decks"]
+    said = found["verdict"]["sentences"]
+    assert "does not explain the state before" in said[0] and any("No change was sought" in each for each in said)
 
 
 def test_more_than_scatter_is_to_be_found_first(tmp_path):
@@ -99,7 +100,27 @@ def test_more_than_scatter_is_to_be_found_first(tmp_path):
     there = replace(test, frequency_hz=np.sqrt(values[:5] / MASS) / (2 * np.pi), shapes=seen / np.abs(seen).max(axis=0))
     held = replace(base, parts=(base.parts[0].with_test(there), base.parts[1]))
     found = before(held)
-    assert not found.explained and "put what it lacks into both decks" in found.refused
+    assert not found.explained and "No change was sought" in found.refused
+
+
+def grounded(folder, name: str, seed: int, lost: float = 0.0) -> str:
+    """A deck of a chain that stands on a spring at node 6 in both states, with a test that is as accurate as it says."""
+    return measured(folder, name, seed, lost, 3, errors=0.1, ground=0.3 * K)
+
+
+def test_what_the_state_before_lacks_is_found_first_and_the_change_beside_it(tmp_path):
+    decks = grounded(tmp_path, "before", 1), grounded(tmp_path, "after", 2, 0.4)
+    revised = tmp_path / "revised"
+    code, found = answered(tmp_path, *decks, more=("-o", str(revised)))
+    state = found["state"]
+    assert state["in_all_decks"] and state["verdict"]["kind"] == "named"
+    assert (state["verdict"]["physics"], state["verdict"]["site"]["ids"]) == ("ground-spring", ["6TX"])
+    (cause,) = found["verdict"]["causes"]
+    assert (code, cause["kind"], cause["physics"], cause["site"]["text"]) == (1, "named", "stiffness-loss", "spring 3")
+    sentences = found["verdict"]["sentences"]
+    assert sentences[0].startswith("The model does not explain the state before. Diagnosed by itself: The model lacks")
+    first, then = (read_deck(revised / f"{name}.yaml") for name in ("before", "after"))
+    assert len(then.parameters) == len(first.parameters) + 1 == 3
 
 
 def test_a_change_is_named_where_theory_errs_far_more_than_stated(tmp_path):

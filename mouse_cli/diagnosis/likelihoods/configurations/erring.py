@@ -44,8 +44,7 @@ class Before:
             return ""
         return (
             "No change was sought, for the model does not explain the state before: it would have to err by "
-            f"{100 * self.tau:.2g} % of ln f, and leaves a chi-square of {self.chi2:.0f} on {self.dof} then. Diagnose that state "
-            "by itself, and put what it lacks into both decks."
+            f"{100 * self.tau:.2g} % of ln f, and leaves a chi-square of {self.chi2:.0f} on {self.dof} then."
         )
 
     @property

@@ -1,0 +1,61 @@
+"""What has changed in a structure that its model did not explain before either.
+
+What the state before lacks is diagnosed by itself, and put into the decks of all states; what changed is sought with that in them.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from mouse_cli.diagnosis.diagnose import by_its_modes
+from mouse_cli.diagnosis.extend.deck import extended
+from mouse_cli.diagnosis.extend.halves import halved
+from mouse_cli.diagnosis.likelihoods.configurations.diagnose import Decks, diagnose_arrangements
+from mouse_cli.diagnosis.likelihoods.measured import Measured
+from mouse_cli.diagnosis.likelihoods.modal.meshed import HALVINGS
+from mouse_cli.diagnosis.search.fit import Fit
+from mouse_cli.diagnosis.search.rank import explains
+from mouse_cli.model.arrangements import ArrangementsDiagnosis
+from mouse_cli.model.diagnosis import NAMED, ONE_OF, Choices
+from mouse_cli.model.problem import Problem
+
+_ALL = Choices()
+
+
+def diagnose_changes(
+    fitted: Decks, unseen: Decks, notice: Callable[[str], None] = lambda text: None, choices: Choices = _ALL
+) -> ArrangementsDiagnosis:
+    """As `diagnose_arrangements`; where no change is sought in decks of which one is of the state before, that is diagnosed, and
+    a change is sought beside what it lacks.
+    """
+    found = diagnose_arrangements(fitted, unseen, notice, choices)
+    before = [deck for deck, has in zip(fitted.problems, fitted.having, strict=True) if not has]
+    if not found.unsought or len(before) != 1:
+        return found
+    notice("the model does not explain the state before: what that lacks is sought first")
+    state, put = by_its_modes(Measured(before[0]), notice, choices)
+    parts = (fitted, unseen) if put is None else tuple(_with(decks, put, before[0]) for decks in (fitted, unseen))
+    if state.kind not in (NAMED, ONE_OF) or not explains(put) or None in parts:
+        return replace(found, state=state)
+    notice("what changed is sought with that in all decks")
+    again = diagnose_arrangements(*parts, notice, choices)
+    return replace(found if again.unsought else again, state=state)
+
+
+def _with(decks: Decks, put: Fit, before: Problem) -> Decks | None:
+    """The same decks with what a fit of the state before has in it; None where that cannot be put into all of them."""
+    times = _halvings(before, put.model.base.problem)
+    made = [extended(_halved(deck, times), put) for deck in decks.problems]
+    if None in made:
+        return None
+    return replace(decks, problems=tuple(replace(deck, parameters=made[0].parameters) for deck in made))
+
+
+def _halvings(deck: Problem, fine: Problem) -> int:
+    """How often the elements of a deck were halved to make `fine`."""
+    return next((n for n in range(HALVINGS) if _halved(deck, n).structure.n >= fine.structure.n), HALVINGS)
+
+
+def _halved(deck: Problem, times: int) -> Problem:
+    for _ in range(times):
+        deck = halved(deck)
+    return deck
