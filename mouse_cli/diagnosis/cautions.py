@@ -8,8 +8,10 @@ import numpy as np
 from mouse_cli.diagnosis.effects.element_sets import text
 from mouse_cli.diagnosis.gates import GATE
 from mouse_cli.diagnosis.likelihoods.modal.accuracy import Doubt, scatter
+from mouse_cli.diagnosis.likelihoods.modal.mixed import mixed
 from mouse_cli.diagnosis.likelihoods.modal.repeated import repeated
 from mouse_cli.diagnosis.likelihoods.modal.scales import span
+from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.diagnosis.search.grounded import one_tie
 from mouse_cli.diagnosis.search.rank import NOISY, Ranking
 from mouse_cli.diagnosis.verdict import Verdict, shifts
@@ -74,11 +76,27 @@ def _repeated(ranking: Ranking, verdict: Verdict) -> Iterator[str]:
     )
 
 
+def _mixed(one: Fit, doubt: Doubt) -> str:
+    """Of a mode that would be said to be false, and that the structure may have as its members scatter; empty: it may not."""
+    found = mixed(one, doubt.modes) if doubt.key == "mode" else {}
+    if not found:
+        return ""
+    (j, own), *_ = found.items()  # it is of one mode
+    hz = enumerated([f"{f:.4g} Hz" for f in np.sqrt(one.point.eigenvalues[own]) / (2 * np.pi)])
+    return (
+        f"Mode {one.data.test.number[j]} has the shape of none of the model's, and may be one of them all the same ({hz}): "
+        "members that differ by a few per cent mix modes that are close, or that swing where no sensor is. Leave it out of the "
+        "test, or measure where the model has these modes swing."
+    )
+
+
 def _errors(ranking: Ranking) -> Iterator[str]:
     """Errors of the test that explain the data, alone or beside a mechanism; where they need not be, as what may be wrong."""
     coarse, entry = _CERTAIN if misstated(ranking) else _POSSIBLE
     for doubt in _doubts(ranking) if ranking.noise_scale <= NOISY else ():
-        if doubt.probability > RIVAL:
+        if doubt.probability > RIVAL and (said := _mixed(ranking.baseline, doubt)):
+            yield said
+        elif doubt.probability > RIVAL:
             p = f"probability {doubt.probability:.2f}" if doubt.probability < 0.995 else "probability > 0.99"
             number = ranking.baseline.data.test.number
             modes = enumerated([str(number[j]) for j in doubt.modes])

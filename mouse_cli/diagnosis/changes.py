@@ -9,7 +9,9 @@ from dataclasses import replace
 from mouse_cli.diagnosis.diagnose import by_its_modes
 from mouse_cli.diagnosis.extend.deck import extended
 from mouse_cli.diagnosis.extend.halves import halved
+from mouse_cli.diagnosis.likelihoods.configurations.compared import compared
 from mouse_cli.diagnosis.likelihoods.configurations.diagnose import Decks, diagnose_arrangements
+from mouse_cli.diagnosis.likelihoods.configurations.erring import before as erring
 from mouse_cli.diagnosis.likelihoods.measured import Measured
 from mouse_cli.diagnosis.likelihoods.modal.meshed import HALVINGS
 from mouse_cli.diagnosis.search.fit import Fit
@@ -24,21 +26,29 @@ _ALL = Choices()
 def diagnose_changes(
     fitted: Decks, unseen: Decks, notice: Callable[[str], None] = lambda text: None, choices: Choices = _ALL
 ) -> ArrangementsDiagnosis:
-    """As `diagnose_arrangements`; where no change is sought in decks of which one is of the state before, that is diagnosed, and
-    a change is sought beside what it lacks.
+    """As `diagnose_arrangements`; where one deck is of the state before, and later tests differ from its own, that is diagnosed by
+    itself first, and a change is sought beside what it lacks, if that has a name.
+
+    What the state before lacks is little beside what theory may err, and yet puts a change elsewhere: where a mass is in neither
+    model, the next one at the mirror image of its place.
     """
-    found = diagnose_arrangements(fitted, unseen, notice, choices)
     before = [deck for deck, has in zip(fitted.problems, fitted.having, strict=True) if not has]
-    if not found.unsought or len(before) != 1:
-        return found
-    notice("the model does not explain the state before: what that lacks is sought first")
-    state, put = by_its_modes(Measured(before[0]), notice, choices)
+    tests = compared(fitted.arranged) if len(before) == 1 else None
+    if tests is None or tests.alike:
+        return diagnose_arrangements(fitted, unseen, notice, choices)
+    notice("what the state before lacks is sought first")
+    asked = erring(fitted.arranged)
+    scatters = asked is None or not asked.refused  # more than one mechanism is then no more than what members differ by
+    state, put = by_its_modes(Measured(before[0]), notice, replace(choices, causes=1) if scatters else choices)
+    kinds = (NAMED,) if scatters else (NAMED, ONE_OF)
     parts = (fitted, unseen) if put is None else tuple(_with(decks, put, before[0]) for decks in (fitted, unseen))
-    if state.kind not in (NAMED, ONE_OF) or not explains(put) or None in parts:
-        return replace(found, state=state)
-    notice("what changed is sought with that in all decks")
-    again = diagnose_arrangements(*parts, notice, choices)
-    return replace(found if again.unsought else again, state=state)
+    if state.kind in kinds and explains(put) and None not in parts:
+        notice(f"what changed is sought with {state.best.title} in all decks")
+        found = diagnose_arrangements(*parts, notice, choices)
+        if not found.unsought:
+            return replace(found, state=state)
+    found = diagnose_arrangements(fitted, unseen, notice, choices)
+    return replace(found, state=state) if found.unsought else found
 
 
 def _with(decks: Decks, put: Fit, before: Problem) -> Decks | None:

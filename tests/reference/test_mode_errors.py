@@ -1,9 +1,18 @@
 """One wrong entry of a test: a frequency that was misread, a shape that is no mode's, on a pinned beam in closed form."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
+from scipy.linalg import eigh
 
 import mouse_cli
+from mouse_cli.diagnosis.cautions import _errors
+from mouse_cli.diagnosis.likelihoods.modal.accuracy import Doubt
+from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
+from mouse_cli.diagnosis.likelihoods.modal.mixed import mixed
+from mouse_cli.diagnosis.likelihoods.modal.model import Model
+from mouse_cli.diagnosis.search.fit import fit
 from mouse_cli.model.diagnosis import NOTHING, UNKNOWN
 
 LENGTH, EI, MASS = 6.0, 2.1e11 * 3.0e-6, 7850 * 2.0e-3
@@ -69,3 +78,76 @@ def test_a_frequency_that_physics_may_have_moved_alone_is_said_to_be_one_or_the_
     assert found.kind != NOTHING and found.misstated is None and 0.02 < dict(found.groups)["none"] < 0.9
     (said,) = [caution for caution in found.cautions if "the frequency of mode 1 does not agree" in caution]
     assert said.startswith("The test may have an error (probability 0.")
+
+
+def swinging(folder, scatter: float, seed: int = 1) -> str:
+    """A chain of six masses that carries four light ones, tuned alike, which no sensor is on; scatter: of their springs."""
+    rng = np.random.default_rng(seed)
+    k, m, tuned = 1e5, 1.0, 0.02 * (2 * np.pi * 33.0) ** 2
+    light = np.append(np.full(6, m), np.full(4, 0.02))
+
+    def stiffness(springs: np.ndarray) -> np.ndarray:
+        K = np.zeros((10, 10))
+        for i in range(6):
+            ends = [i] if i == 0 else [i - 1, i]
+            K[np.ix_(ends, ends)] += k * (1.0 if i == 0 else np.array([[1, -1], [-1, 1]]))
+        for i, spring in enumerate(springs):
+            ends = [i + 1, 6 + i]
+            K[np.ix_(ends, ends)] += spring * np.array([[1, -1], [-1, 1]])
+        return K
+
+    values, shapes = eigh(stiffness(tuned * np.exp(scatter * rng.standard_normal(4))), np.diag(light))
+    chosen = [0, 1, 3]
+    seen = shapes[:6, chosen] / np.abs(shapes[:6, chosen]).max(axis=0) + 0.01 * rng.standard_normal((6, 3))
+    hz = np.sqrt(values[chosen]) / (2 * np.pi) * (1 + 0.001 * rng.standard_normal(3))
+    path = folder / "swinging.yaml"
+    path.write_text(f"""\
+mouse: 1
+title: A chain that carries light masses
+model:
+  structure:
+    nodes: {{line: {{from: 0, to: 10, start: [0, 0, 0], end: [10, 0, 0]}}}}
+    elements:
+      - {{id: 1-6, type: spring, nodes: 0-6, TX: {k}}}
+      - {{id: 11-14, type: spring, nodes: [[2, 7], [3, 8], [4, 9], [5, 10]], TX: {tuned}}}
+      - {{id: 21-30, type: mass, nodes: 1-10, mass: {light.tolist()}}}
+    supports: {{0: all}}
+    directions: [TX]
+parameters: [{{name: k, elements: 1-6, property: TX, factor: true, sd: 3 %}}]
+test:
+  modes:
+    number: [1, 2, 4]
+    dofs: [1TX, 2TX, 3TX, 4TX, 5TX, 6TX]
+    frequency: {hz.round(4).tolist()}
+    frequency_sd: 0.1 %
+    shapes: {seen.round(4).tolist()}
+    shape_sd: 1 %
+""")
+    return path
+
+
+def fitted(path):
+    problem = mouse_cli.read_deck(path)
+    return fit(Model(reduced(problem, problem.prior.mean)), np.zeros(0))
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_a_mode_that_scatter_mixes_may_be_the_structures(tmp_path, seed):
+    one = fitted(swinging(tmp_path, 0.02, seed))
+    assert one.misfit > 100  # far more than noise
+    assert 2 in mixed(one, (0, 1, 2))
+
+
+def test_such_a_mode_is_not_said_to_be_false(tmp_path):
+    one, noise = fitted(swinging(tmp_path, 0.02)), np.random.default_rng(3).uniform(-1, 1, len(SENSORS))
+    other = fitted(deck(tmp_path, {}, {3: noise}))
+    for each, said in ((one, "may be one of them all the same"), (other, "none that the structure can have")):
+        doubted = SimpleNamespace(baseline=each, doubts=(Doubt("mode", 0.999, 0.5, (2,)),), noise_scale=1.0)
+        (sentence,) = _errors(doubted)
+        assert said in sentence
+
+
+def test_scatter_does_not_make_any_shape(tmp_path):
+    noise = np.random.default_rng(3).uniform(-1, 1, len(SENSORS))
+    one = fitted(deck(tmp_path, {}, {3: noise}))
+    assert set(mixed(one, tuple(range(6)))) == {0, 1, 3, 4, 5}

@@ -8,20 +8,21 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.nameless import Nameless
 from mouse_cli.diagnosis.nameless._cells import FEWEST, Cells
 from mouse_cli.diagnosis.sites.bars import Bars
+from mouse_cli.diagnosis.sites.preload import resistance
 from mouse_cli.model.diagnosis import AXIAL
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.elements import _beam as beam
 
 
 def cells(model: Reduced) -> Cells | None:
-    """K + sum v_e T Kg_e over bars that bend, T = EI / L^2 and Kg_e the integral of w'w' in each of the planes of one."""
+    """K + sum v_e T Kg_e over bars that bend, T as in `resistance`, Kg_e the integral of w'w' in each of the planes of one."""
     bars = model.bars
     if of_matrices(model.problem) or bars is None or any(b.property == "preload" for b in model.problem.bindings):
         return None
     own = list(bars.twins.values())
     if len(own) < FEWEST:
         return None
-    unit = bars.stiffness / bars.span**2
+    unit = resistance(model, np.arange(len(bars)), bars.span)
     first = np.array([twins[0] for twins in own])
     sites = tuple(bars.site(i, 0.5) for i in first.tolist())
     at = bars.start[first] + 0.5 * bars.length[first, None] * bars.axis[first]
@@ -52,7 +53,7 @@ NAMELESS = Nameless(
     "an axial force that varies along the structure",
     AXIAL,
     "a pull or a push of each bar, neighbours alike: a smooth random field whose spread and correlation length are integrated out, "
-    "in units of EI / L^2",
+    "in units of EI / L^2, and of what tension there is over pi^2",
     (0.3, 3.0, 30.0),
     cells,
     even="axial",

@@ -11,6 +11,7 @@ from mouse_cli.diagnosis.sites.lines import Line, elements, whole
 from mouse_cli.diagnosis.sites.points import wanted
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
+from mouse_cli.terms.element_term import ElementTerm
 from mouse_cli.terms.elements import _beam as beam
 
 
@@ -31,6 +32,27 @@ def site_of(model: Reduced, run: Line) -> Site:
     return Site("element", ids, None, elements(ids))
 
 
+def resistance(model: Reduced, members: np.ndarray, length: float) -> float:
+    """EI / l^2 + T / pi^2 (N) of bars as they are: a pull changes their lowest mode by what it is of this, over pi^2.
+
+    A cable resists by its tension T alone, which in EI / l^2 is ten thousand; compression takes nothing off.
+    """
+    bars = model.bars
+    return float(bars.EI[members].mean()) / length**2 + max(float(_tension(model)[members].mean()), 0.0) / np.pi**2
+
+
+def _tension(model: Reduced) -> np.ndarray:
+    """Axial force (b,) of bars in the deck: their preload, and what gravity brings about."""
+    mesh, bars = model.problem.mesh, model.bars
+    force = [np.array(np.broadcast_to(each.properties.get("preload", 0.0), len(each)), float) for each in mesh.elements]
+    terms = [term for term in model.problem.terms if isinstance(term, ElementTerm)]
+    for g, term in enumerate(terms):
+        if term.axial is not None:
+            for (s, i), own in zip(zip(*mesh.gathered.origin(g), strict=True), term.axial, strict=True):
+                force[s][i] += own
+    return np.array([force[s][i] for s, i in zip(bars.set.tolist(), bars.member.tolist(), strict=True)])
+
+
 def preloads(model: Reduced, candidate: Candidate, sign: int) -> list[Recipe]:
     """K + T Kg, T of the given sign, for each straight row of bars."""
     found = runs(model, "preload")
@@ -41,7 +63,7 @@ def _recipe(model: Reduced, candidate: Candidate, run: Line, sign: int, count: i
     bars, members = model.bars, whole(run)
     _, slope, _ = beam.shapes(bars.length[members], bars.phi[members])
     Kg = sign * bars.added(beam.integral(slope, bars.length[members]), members)
-    scale = float(bars.EI[run.members].mean()) / run.length**2
+    scale = resistance(model, run.members, run.length)
     T = Unknown("force", "N", 0.03 * scale, 30 * scale)
     site = site_of(model, run)
 
