@@ -13,6 +13,7 @@ from mouse_cli.diagnosis.extend.points import found as new_parameter
 from mouse_cli.diagnosis.gates import WHOLLY
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.diagnosis.sites.left_out import Left, left_out
 from mouse_cli.diagnosis.sites.lines import elements as in_words
 from mouse_cli.diagnosis.sites.points import wanted
 from mouse_cli.model.arrays import dense
@@ -202,16 +203,32 @@ def _elements(model: Reduced, candidate: Candidate, part: tuple, count: int, sig
             edit.follow(alike, stiff, factor=True)
         return edit.done()
 
-    return _recipe(candidate, sign * K, site, count / share, extend, sign)
+    return _recipe(candidate, sign * K, site, count / share, extend, sign, _left_out(model, which, direction))
 
 
-def _recipe(candidate: Candidate, K: np.ndarray, site: Site, count: float, extend, sign: int) -> Recipe:
-    """K: what is added for a share of 1."""
+def _left_out(model: Reduced, which: tuple[tuple[int, int], ...], direction: str) -> Left | None:
+    """What the coordinates of a large model leave out of one element that joins two nodes, or of a direction of it."""
+    (s, i), mesh = which[0], model.problem.mesh
+    if model.motion is None or len(which) > 1 or mesh.elements[s].nodes.shape[1] != 2:
+        return None
+
+    def stiffness(there: Reduced) -> np.ndarray:
+        without = matrices_of(there, s, **{direction: 0.0})["K"] if direction else 0.0
+        return (matrices_of(there, s)["K"] - without)[[i]]
+
+    return left_out(model, ("element", s, i, direction), mesh.elements[s].nodes[[i]], stiffness)
+
+
+def _recipe(
+    candidate: Candidate, K: np.ndarray, site: Site, count: float, extend, sign: int, left: Left | None = None
+) -> Recipe:
+    """K: what is added for a share of 1; left: what the coordinates leave out of it."""
     share = _LOST if sign < 0 else _GAINED
+    beyond = lambda d: 0.0 if left is None else left.correction(sign * d)
     return Recipe(
         candidate,
         (share,),
-        lambda values: Change(K=values[0] * K, spring=(values[0] + sign) * K),
+        lambda values: Change(K=values[0] * K + beyond(values[0]), spring=(values[0] + sign) * K),
         np.array(_BEGIN if sign < 0 else _GAINS)[:, None],
         lambda values: site,
         log_prior=-float(np.log(count)),

@@ -16,7 +16,7 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.bars import displacements
 from mouse_cli.diagnosis.sites.left_out import left_out
-from mouse_cli.diagnosis.sites.members import ONE, SLENDER, Member, members
+from mouse_cli.diagnosis.sites.members import ONE, SLENDER, Member, members, rods
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.revision import GONE
@@ -47,7 +47,10 @@ def of_members(model: Reduced, candidate: Candidate, sign: int = -1) -> list[Rec
         return missing(model, candidate) if sign < 0 else []
     parts: dict[int, Part] = {}
     sets = OfSets()
-    found = [(member, energy(model, member, parts)) for member in members(model.problem.mesh)]
+    listed, bare = members(model.problem.mesh), rods(model.problem.mesh)
+    alone = {member.elements for member in listed}
+    bare = {member.elements: member for member in bare if member.elements not in alone}
+    found = [(member, energy(model, member, parts)) for member in (*listed, *bare.values())]
     order = np.argsort([-energy for _, energy in found], kind="stable")[:_MOST]
     chosen = [found[i][0] for i in sorted(order.tolist()) if found[i][1] > _HELD]
     kinds = [member.kind for member in chosen]
@@ -57,7 +60,8 @@ def of_members(model: Reduced, candidate: Candidate, sign: int = -1) -> list[Rec
         heavy = bool(np.abs(M).max() > 0)
         share = -float(np.log(len(set(kinds)) * kinds.count(member.kind) * (1 + heavy)))
         beyond = _beyond(model, member, sets, sign)
-        recipes.append(_recipe(candidate, member, (sign * K, beyond), None, sign, share, model.problem))
+        if member.elements not in bare:
+            recipes.append(_recipe(candidate, member, (sign * K, beyond), None, sign, share, model.problem))
         if heavy:
             most = np.inf if sign > 0 else _BALANCED
             alike = beyond and (lambda share, beyond=beyond, most=most: beyond(min(share, most)))

@@ -45,6 +45,15 @@ def members(mesh: Mesh) -> list[Member]:
     return list(found.values())
 
 
+def rods(mesh: Mesh) -> list[Member]:
+    """Those with a mass, which are no `members` alone, for losses of elements know them and leave that mass where it is."""
+    return [
+        Member(ONE, ((s, i),), described(mesh, [(s, i)], ONE))
+        for s, own in enumerate(mesh.elements)
+        for i in (np.flatnonzero(own.properties.get("density", 0.0)).tolist() if own.type == "rod" else ())
+    ]
+
+
 def crossed(mesh: Mesh) -> set[int]:
     """Nodes (indices) where more than two beams or rods meet: joints, which a row may pass and a member does not."""
     count = np.zeros(len(mesh.node_ids), int)
