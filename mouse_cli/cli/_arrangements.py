@@ -79,7 +79,7 @@ def diagnosed(
     choices: Choices,
 ) -> ArrangementsDiagnosis:
     """What arrangements lack; common_sd in per cent, None: as the decks state it."""
-    from mouse_cli.diagnosis.changes import diagnose_changes
+    from mouse_cli.diagnosis.likelihoods.configurations.changes import diagnose_changes
     from mouse_cli.diagnosis.likelihoods.configurations.diagnose import Decks
 
     shared = problems[0].theory.configurations if common_sd is None else common_sd / 100

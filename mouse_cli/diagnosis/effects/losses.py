@@ -1,11 +1,11 @@
 """Elements other than bars, springs between degrees of freedom, and groups of matrix elements, that lose or gain stiffness."""
 
-from collections.abc import Iterable
 
 import numpy as np
 
 from mouse_cli.diagnosis.effects import element_sets
 from mouse_cli.diagnosis.effects.change import LOST, Change, Recipe, Unknown
+from mouse_cli.diagnosis.effects.of_sets import matrices_of
 from mouse_cli.diagnosis.effects.rows import runs
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.extend.matrices import Entries, of_matrices, with_entries
@@ -20,8 +20,6 @@ from mouse_cli.model.arrays import dense
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.problem import Problem
-from mouse_cli.terms.bound_properties import BoundProperties, nominal_properties
-from mouse_cli.terms.elements import Layout, Matrices, registry
 
 _MOST, _RUNS = 60, 240  # places, and runs of them in a row, that are looked at: those that hold most energy in the lowest modes
 _FEW = 12  # directions of them that a search in few coordinates knows to soften
@@ -106,43 +104,6 @@ def _stiffness(model: Reduced, s: int, directed: bool) -> list[tuple[int, str, f
         parts += [(name, alone[name][i], 0.5 / len(own)) for name in own if len(own) > 1]
         found += [(i, name, share, u.T @ K @ u) for name, K, share in parts]
     return found
-
-
-def matrices_of(model: Reduced, s: int, exchanged: Iterable[tuple[str, str]] = (), **instead: float) -> Matrices:
-    """Matrices of the elements of set s, at the parameters where causes are weighed; exchanged: pairs of properties that are.
-
-    instead: other values of properties.
-    """
-    mesh = model.problem.mesh
-    elements, kind = mesh.elements[s], registry()[mesh.elements[s].type]
-    options = {k: o.default for k, o in kind.options.items()} | elements.options
-    layout = Layout(mesh.coordinates[elements.nodes], options)
-    properties = {k: np.array(v, float) for k, v in nominal_properties(kind, elements, layout).items()}
-    own = tuple(b for b in model.problem.bindings if b.set == s)
-    if own:
-        bound = BoundProperties(kind, elements, layout, own)
-        for name, value in bound.at(model.theta)[0].items():
-            properties[name][bound.members] = value
-    for name in instead.keys() & properties.keys():
-        properties[name][:] = instead[name]
-    for one, other in exchanged:
-        properties[one], properties[other] = properties[other], properties[one]
-    return kind.matrices(layout, properties)
-
-
-class OfSets:
-    """K of the elements of sets (e, 12, 12) at the parameters of any model, found once."""
-
-    def __init__(self) -> None:
-        self._found: dict[tuple[int, bytes], np.ndarray] = {}
-
-    def stiffness(self, model: Reduced, elements: Iterable[tuple[int, int]]) -> np.ndarray:
-        """That of `elements`, by set and place in it."""
-        theta = model.theta.tobytes()
-        for s in {s for s, _ in elements}:
-            if (s, theta) not in self._found:
-                self._found[s, theta] = matrices_of(model, s)["K"]
-        return np.array([self._found[s, theta][i] for s, i in elements])
 
 
 def _node(model: Reduced, n: int) -> np.ndarray:

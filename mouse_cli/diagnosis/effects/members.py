@@ -9,7 +9,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.effects.change import LOST, Change, Recipe, Unknown, steps
 from mouse_cli.diagnosis.effects.element_sets import missing
-from mouse_cli.diagnosis.effects.losses import OfSets, matrices_of
+from mouse_cli.diagnosis.effects.of_sets import OfSets, matrices_of
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.gates import WHOLLY
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change
-from mouse_cli.diagnosis.effects.losses import OfSets, matrices_of
+from mouse_cli.diagnosis.effects.of_sets import OfSets, matrices_of
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.sites.bars import Bars
 from mouse_cli.diagnosis.sites.left_out import Left, left_out

@@ -11,7 +11,7 @@ the residual flexibility R = b'A^-1 b - b'V (V'A V)^-1 V'b is felt as k / (1 + k
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -64,7 +64,8 @@ def left_out(model: Reduced, key: tuple, nodes: np.ndarray, stiffness: Callable[
 
     None where it is too large.
     """
-    given = _loaded(model.static, key, nodes, lambda: stiffness(model.taken))
+    taken = model if model.origin is None else replace(model, theta=model.origin, origin=None)  # what all static motion is of
+    given = _loaded(model.static, key, nodes, lambda: stiffness(taken))
     if given is None:
         return None
     left = given.left(displacements(model.motion, nodes, model.V), model.eigenvalues, model.static.shift)

@@ -229,9 +229,7 @@ class Points(Left):
 
 class Together(Given):
     """Arrangements with causes that they share: what `fit` and `Study` need of a model."""
-
     made_of = "base", "recipes"
-
     def __init__(self, base: Arranged, recipes: tuple[SharedRecipe, ...] = ()):
         self.base, self.recipes = base, recipes
         self.models = [

@@ -26,9 +26,7 @@ Stencil = tuple[int, Parts, list[Softer]]  # number of a recipe, and the derivat
 
 class Model(Carrying, Given):
     """A reduced model with causes: what it predicts at x, and by which derivatives."""
-
     made_of = "base", "recipes"
-
     def __init__(self, base: Reduced, recipes: tuple[Recipe, ...] = ()):
         self.base, self.recipes = base, recipes
         self.k = base.L.shape[1]

@@ -101,8 +101,7 @@ class Reduced(Given):
 
     def matrices(self, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """K and M (r, r) at z (k,)."""
-        key = z.tobytes()
-        if key not in self._at:
+        if (key := z.tobytes()) not in self._at:
             step, r = self.step(z), self.r
             K, M = (step @ d.reshape(len(step), r**2) for d in (self.dK, self.dM))
             K[:: r + 1] += self.eigenvalues
@@ -162,11 +161,6 @@ class Reduced(Given):
         if found is None or self.static is None:
             return found
         return replace(found, residual=self.static.left(found, self.eigenvalues))
-
-    @property
-    def taken(self) -> "Reduced":
-        """The same where V and all static motion is of: what is kept of these is asked for there, whoever asks first."""
-        return self if self.origin is None else replace(self, theta=self.origin, origin=None)
 
     @cached_property
     def stiffening(self) -> np.ndarray:

@@ -6,6 +6,9 @@ What the state before lacks is diagnosed by itself, and put into the decks of al
 from collections.abc import Callable
 from dataclasses import replace
 
+import numpy as np
+
+from mouse_cli._errors import NumericalError
 from mouse_cli.diagnosis.diagnose import by_its_modes
 from mouse_cli.diagnosis.extend.deck import extended
 from mouse_cli.diagnosis.extend.halves import halved
@@ -17,7 +20,7 @@ from mouse_cli.diagnosis.likelihoods.modal.meshed import HALVINGS
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.diagnosis.search.rank import explains
 from mouse_cli.model.arrangements import ArrangementsDiagnosis
-from mouse_cli.model.diagnosis import NAMED, ONE_OF, Choices
+from mouse_cli.model.diagnosis import NAMED, ONE_OF, Choices, Diagnosis
 from mouse_cli.model.problem import Problem
 
 _ALL = Choices()
@@ -37,18 +40,31 @@ def diagnose_changes(
     if tests is None or tests.alike:
         return diagnose_arrangements(fitted, unseen, notice, choices)
     notice("what the state before lacks is sought first")
-    asked = erring(fitted.arranged)
-    scatters = asked is None or not asked.refused  # more than one mechanism is then no more than what members differ by
-    state, put = by_its_modes(Measured(before[0]), notice, replace(choices, causes=1) if scatters else choices)
-    kinds = (NAMED,) if scatters else (NAMED, ONE_OF)
-    parts = (fitted, unseen) if put is None else tuple(_with(decks, put, before[0]) for decks in (fitted, unseen))
-    if state.kind in kinds and explains(put) and None not in parts:
-        notice(f"what changed is sought with {state.best.title} in all decks")
-        found = diagnose_arrangements(*parts, notice, choices)
-        if not found.unsought:
-            return replace(found, state=state)
+    state, found = None, None
+    try:
+        state, parts = _of_before(before[0], fitted, unseen, notice, choices)
+        if parts is not None:
+            notice(f"what changed is sought with {state.best.title} in all decks")
+            found = diagnose_arrangements(*parts, notice, choices)
+    except (NumericalError, np.linalg.LinAlgError):  # decks with it in them are no structures
+        found = None
+    if found is not None and not found.unsought:
+        return replace(found, state=state)
     found = diagnose_arrangements(fitted, unseen, notice, choices)
     return replace(found, state=state) if found.unsought else found
+
+
+def _of_before(
+    before: Problem, fitted: Decks, unseen: Decks, notice: Callable[[str], None], choices: Choices
+) -> tuple[Diagnosis, tuple[Decks, Decks] | None]:
+    """What the state before lacks, and the decks with it in them; None where it has no name, or cannot be put into all."""
+    asked = erring(fitted.arranged)
+    scatters = asked is None or not asked.refused  # more than one mechanism is then no more than what members differ by
+    state, put = by_its_modes(Measured(before), notice, replace(choices, causes=1) if scatters else choices)
+    if put is None or state.kind not in ((NAMED,) if scatters else (NAMED, ONE_OF)) or not explains(put):
+        return state, None
+    parts = _with(fitted, put, before), _with(unseen, put, before)
+    return state, None if None in parts else parts
 
 
 def _with(decks: Decks, put: Fit, before: Problem) -> Decks | None:
