@@ -87,6 +87,23 @@ def test_nothing_is_sought_in_a_model_that_explains_nothing(tmp_path, monkeypatc
     assert "does not explain the state before" in said[0] and any("No change was sought" in each for each in said)
 
 
+def test_of_several_decks_before_one_is_to_be_diagnosed(tmp_path, monkeypatch):
+    monkeypatch.setattr(diagnose, "rank", None)
+    decks = [measured(tmp_path, *each) for each in (("before", 1), ("after", 2, 0.3), ("again", 3))]
+    for path in decks:
+        edited(path, "nodes: 1-8, mass: 1.0", OTHER_MASSES)
+    _, found = answered(tmp_path, *decks[:2], more=(decks[2],))
+    assert found["state"] is None and any("Diagnose one of the decks before" in each for each in found["verdict"]["sentences"])
+
+
+def test_decks_of_which_one_is_no_structure_are_refused(tmp_path, monkeypatch):
+    def fails(deck):
+        raise np.linalg.LinAlgError("not positive definite")
+
+    monkeypatch.setattr(diagnose, "meshed", fails)
+    assert _run(["diagnose", measured(tmp_path, "before", 1), "--changed", measured(tmp_path, "after", 2, 0.3), "-q"]) == 5
+
+
 def test_more_than_scatter_is_to_be_found_first(tmp_path):
     """A node that stands on a spring in both states, which is not in the model."""
     base = arranged(tmp_path, 0.01)

@@ -1,6 +1,5 @@
 """Elements other than bars, springs between degrees of freedom, and groups of matrix elements, that lose or gain stiffness."""
 
-
 import numpy as np
 
 from mouse_cli.diagnosis.effects import element_sets

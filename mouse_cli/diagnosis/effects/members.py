@@ -47,10 +47,9 @@ def of_members(model: Reduced, candidate: Candidate, sign: int = -1) -> list[Rec
         return missing(model, candidate) if sign < 0 else []
     parts: dict[int, Part] = {}
     sets = OfSets()
-    listed, bare = members(model.problem.mesh), rods(model.problem.mesh)
-    alone = {member.elements for member in listed}
-    bare = {member.elements: member for member in bare if member.elements not in alone}
-    found = [(member, energy(model, member, parts)) for member in (*listed, *bare.values())]
+    bare = {member.elements: member for member in rods(model.problem.mesh)}
+    listed = (*members(model.problem.mesh), *bare.values())
+    found = [(member, energy(model, member, parts)) for member in listed]
     order = np.argsort([-energy for _, energy in found], kind="stable")[:_MOST]
     chosen = [found[i][0] for i in sorted(order.tolist()) if found[i][1] > _HELD]
     kinds = [member.kind for member in chosen]

@@ -8,7 +8,7 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.nameless import Nameless
 from mouse_cli.diagnosis.nameless._cells import FEWEST, Cells
 from mouse_cli.diagnosis.sites.bars import Bars
-from mouse_cli.diagnosis.sites.preload import resistance
+from mouse_cli.diagnosis.sites.preload import resistance, tensions
 from mouse_cli.model.diagnosis import AXIAL
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.elements import _beam as beam
@@ -22,7 +22,7 @@ def cells(model: Reduced) -> Cells | None:
     own = list(bars.twins.values())
     if len(own) < FEWEST:
         return None
-    unit = resistance(model, np.arange(len(bars)), bars.span)
+    unit = resistance(bars.EI, tensions(model), bars.span)
     first = np.array([twins[0] for twins in own])
     sites = tuple(bars.site(i, 0.5) for i in first.tolist())
     at = bars.start[first] + 0.5 * bars.length[first, None] * bars.axis[first]

@@ -32,16 +32,15 @@ def site_of(model: Reduced, run: Line) -> Site:
     return Site("element", ids, None, elements(ids))
 
 
-def resistance(model: Reduced, members: np.ndarray, length: float) -> float:
-    """EI / l^2 + T / pi^2 (N) of bars as they are: a pull changes their lowest mode by what it is of this, over pi^2.
+def resistance(EI: np.ndarray, tension: np.ndarray, length: float) -> float:
+    """EI / l^2 + T / pi^2 (N) of bars (c,) as they are: a pull changes their lowest mode by what it is of this, over pi^2.
 
     A cable resists by its tension T alone, which in EI / l^2 is ten thousand; compression takes nothing off.
     """
-    bars = model.bars
-    return float(bars.EI[members].mean()) / length**2 + max(float(_tension(model)[members].mean()), 0.0) / np.pi**2
+    return float(EI.mean()) / length**2 + max(float(tension.mean()), 0.0) / np.pi**2
 
 
-def _tension(model: Reduced) -> np.ndarray:
+def tensions(model: Reduced) -> np.ndarray:
     """Axial force (b,) of bars in the deck: their preload, and what gravity brings about."""
     mesh, bars = model.problem.mesh, model.bars
     force = [np.array(np.broadcast_to(each.properties.get("preload", 0.0), len(each)), float) for each in mesh.elements]
@@ -56,14 +55,15 @@ def _tension(model: Reduced) -> np.ndarray:
 def preloads(model: Reduced, candidate: Candidate, sign: int) -> list[Recipe]:
     """K + T Kg, T of the given sign, for each straight row of bars."""
     found = runs(model, "preload")
-    return [_recipe(model, candidate, run, sign, len(found)) for run in found]
+    tension = tensions(model) if found else np.zeros(0)
+    return [_recipe(model, candidate, run, sign, len(found), tension[run.members]) for run in found]
 
 
-def _recipe(model: Reduced, candidate: Candidate, run: Line, sign: int, count: int) -> Recipe:
+def _recipe(model: Reduced, candidate: Candidate, run: Line, sign: int, count: int, tension: np.ndarray) -> Recipe:
     bars, members = model.bars, whole(run)
     _, slope, _ = beam.shapes(bars.length[members], bars.phi[members])
     Kg = sign * bars.added(beam.integral(slope, bars.length[members]), members)
-    scale = resistance(model, run.members, run.length)
+    scale = resistance(bars.EI[run.members], tension, run.length)
     T = Unknown("force", "N", 0.03 * scale, 30 * scale)
     site = site_of(model, run)
 

@@ -6,17 +6,14 @@ What the state before lacks is diagnosed by itself, and put into the decks of al
 from collections.abc import Callable
 from dataclasses import replace
 
-import numpy as np
-
 from mouse_cli._errors import NumericalError
 from mouse_cli.diagnosis.diagnose import by_its_modes
 from mouse_cli.diagnosis.extend.deck import extended
-from mouse_cli.diagnosis.extend.halves import halved
+from mouse_cli.diagnosis.likelihoods.configurations.checked import checked
 from mouse_cli.diagnosis.likelihoods.configurations.compared import compared
-from mouse_cli.diagnosis.likelihoods.configurations.diagnose import Decks, diagnose_arrangements
+from mouse_cli.diagnosis.likelihoods.configurations.diagnose import Decks, diagnose_arrangements, on_short_elements
 from mouse_cli.diagnosis.likelihoods.configurations.erring import before as erring
 from mouse_cli.diagnosis.likelihoods.measured import Measured
-from mouse_cli.diagnosis.likelihoods.modal.meshed import HALVINGS
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.diagnosis.search.rank import explains
 from mouse_cli.model.arrangements import ArrangementsDiagnosis
@@ -35,23 +32,25 @@ def diagnose_changes(
     What the state before lacks is little beside what theory may err, and yet puts a change elsewhere: where a mass is in neither
     model, the next one at the mirror image of its place.
     """
-    before = [deck for deck, has in zip(fitted.problems, fitted.having, strict=True) if not has]
-    tests = compared(fitted.arranged) if len(before) == 1 else None
-    if tests is None or tests.alike:
+    before = [i for i, has in enumerate(fitted.having) if not has]
+    if len(before) != 1:
         return diagnose_arrangements(fitted, unseen, notice, choices)
-    notice("what the state before lacks is sought first")
-    state, found = None, None
-    try:
-        state, parts = _of_before(before[0], fitted, unseen, notice, choices)
-        if parts is not None:
-            notice(f"what changed is sought with {state.best.title} in all decks")
-            found = diagnose_arrangements(*parts, notice, choices)
-    except (NumericalError, np.linalg.LinAlgError):  # decks with it in them are no structures
-        found = None
-    if found is not None and not found.unsought:
-        return replace(found, state=state)
-    found = diagnose_arrangements(fitted, unseen, notice, choices)
-    return replace(found, state=state) if found.unsought else found
+    checked((*fitted.problems, *unseen.problems))
+    fitted, unseen, said = on_short_elements(fitted, unseen)
+    tests, state, found = compared(fitted.arranged), None, None
+    if tests is not None and not tests.alike:
+        notice("what the state before lacks is sought first")
+        try:
+            state, parts = _of_before(fitted.problems[before[0]], fitted, unseen, notice, choices)
+            if parts is not None:
+                notice(f"what changed is sought with {state.best.title} in all decks")
+                found = diagnose_arrangements(*parts, notice, choices)
+        except NumericalError:  # a state that has nothing to do with its model, or decks that are no structures with that in them
+            found = None
+    if found is None or found.unsought:
+        found = diagnose_arrangements(fitted, unseen, notice, choices)
+        state = state if found.unsought else None
+    return replace(found, state=state, remarks=said + found.remarks)
 
 
 def _of_before(
@@ -69,19 +68,9 @@ def _of_before(
 
 def _with(decks: Decks, put: Fit, before: Problem) -> Decks | None:
     """The same decks with what a fit of the state before has in it; None where that cannot be put into all of them."""
-    times = _halvings(before, put.model.base.problem)
-    made = [extended(_halved(deck, times), put) for deck in decks.problems]
+    if put.model.base.problem.structure.n != before.structure.n:
+        return None  # on shorter elements still, which decks of the others do not have
+    made = [extended(deck, put) for deck in decks.problems]
     if None in made:
         return None
     return replace(decks, problems=tuple(replace(deck, parameters=made[0].parameters) for deck in made))
-
-
-def _halvings(deck: Problem, fine: Problem) -> int:
-    """How often the elements of a deck were halved to make `fine`."""
-    return next((n for n in range(HALVINGS) if _halved(deck, n).structure.n >= fine.structure.n), HALVINGS)
-
-
-def _halved(deck: Problem, times: int) -> Problem:
-    for _ in range(times):
-        deck = halved(deck)
-    return deck

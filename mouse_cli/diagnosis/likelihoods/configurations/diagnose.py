@@ -35,6 +35,7 @@ from mouse_cli.diagnosis.verdict import (
 from mouse_cli.model.arrangements import ArrangementsDiagnosis, Compared, Turn
 from mouse_cli.model.diagnosis import BY_DECK, NAMED, ONE_OF, Choices, Field, HeldOut, Score
 from mouse_cli.model.problem import Problem
+from mouse_cli.updating import refusals
 
 _MOST = 8  # causes that are told one after another
 _ALL = Choices()
@@ -66,8 +67,14 @@ class Decks:
 
     @cached_property
     def meshed(self) -> tuple[Meshed, ...]:
-        """The model of each, corrected for its mesh."""
-        return tuple(meshed(each) for each in self.problems)
+        """The model of each, corrected for its mesh.
+
+        Raises NumericalError where one is no structure, such as a member that is gone under an axial force.
+        """
+        try:
+            return tuple(meshed(each) for each in self.problems)
+        except np.linalg.LinAlgError as reason:
+            raise refusals.unphysical(self.problems[0], str(reason)) from None
 
     def halved(self) -> "Decks":
         """The same on elements of half the length."""
@@ -121,7 +128,8 @@ def diagnose_arrangements(
     Raises DeckError when decks are no arrangements of one structure (MD690, MD691).
     """
     checked((*fitted.problems, *unseen.problems))
-    fitted, unseen, remarks = _on_short_elements(fitted, unseen)
+    fitted, unseen, remarks = on_short_elements(fitted, unseen)
+    remarks += tuple(dict.fromkeys(text for each in fitted.meshed for text in each.remarks))
     fitted, unseen, state = _as_theory_errs(fitted, unseen)
     sought = Sought(choices, state)
     first = at = _state(fitted, unseen, sought)
@@ -143,8 +151,8 @@ def diagnose_arrangements(
     return found if found.adequate or found.unchanged or found.unsought else replace(found, field=_field(at))
 
 
-def _on_short_elements(fitted: Decks, unseen: Decks) -> tuple[Decks, Decks, tuple[str, ...]]:
-    """Both on elements short enough for all of their tests, and what to say of it; see `begun`."""
+def on_short_elements(fitted: Decks, unseen: Decks) -> tuple[Decks, Decks, tuple[str, ...]]:
+    """Both on elements short enough for all of their tests, and what to say of those that were halved; see `begun`."""
     said: tuple[str, ...] = ()
     for _ in range(HALVINGS):
         coarse = [own for decks in (fitted, unseen) for own in zip(decks.meshed, decks.problems, strict=True) if own[0].coarse]
@@ -153,7 +161,7 @@ def _on_short_elements(fitted: Decks, unseen: Decks) -> tuple[Decks, Decks, tupl
         found, problem = coarse[0]
         said += (found.said(problem),)
         fitted, unseen = fitted.halved(), unseen.halved()
-    return fitted, unseen, said + tuple(dict.fromkeys(text for each in fitted.meshed for text in each.remarks))
+    return fitted, unseen, said
 
 
 def _as_theory_errs(fitted: Decks, unseen: Decks) -> tuple[Decks, Decks, Before | None]:

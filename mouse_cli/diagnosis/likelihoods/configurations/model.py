@@ -229,7 +229,9 @@ class Points(Left):
 
 class Together(Given):
     """Arrangements with causes that they share: what `fit` and `Study` need of a model."""
+
     made_of = "base", "recipes"
+
     def __init__(self, base: Arranged, recipes: tuple[SharedRecipe, ...] = ()):
         self.base, self.recipes = base, recipes
         self.models = [
@@ -294,6 +296,5 @@ class Together(Given):
 
     def modes(self, at: Points) -> tuple[Modes, ...] | None:
         """Modes of the models of which theory errs, as the causes have them at a point; None: they are in other models."""
-        pairs = zip(self.base.errors.modes, self.parts(at), strict=True)
-        found = [own.at(*there) for own, there in pairs]
+        found = [own.at(*there) for own, there in zip(self.base.errors.modes, self.parts(at), strict=True)]
         return None if None in found else tuple(found)

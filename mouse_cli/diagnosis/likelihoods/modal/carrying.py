@@ -5,11 +5,14 @@ from itertools import permutations
 
 import numpy as np
 
+from mouse_cli.diagnosis.likelihoods.modal.given import Given
 from mouse_cli.diagnosis.likelihoods.modal.softened import Softened
 
 
-class Carrying(Softened):
+class Carrying(Softened, Given):
     """What causes of a model that carry it do to one another: base, recipes, their coordinates `places` among `size`."""
+
+    made_of = "base", "recipes"
 
     @cached_property
     def _carriers(self) -> list[int]:

@@ -8,12 +8,12 @@ swings where no sensor is, a few per cent of one that the sensors do see are all
 import numpy as np
 
 from mouse_cli.diagnosis.gates import GATE
+from mouse_cli.diagnosis.likelihoods.modal.repeated import SENSORS
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.updating.chi_square import upper_tail
 
 _SCATTER = 0.02  # tau: of members of one kind, by their dimensions and moduli
 _NEAR = 3 * _SCATTER  # of ln f, between a measured mode and one of the model that it may be
-_SENSORS = 5  # that a mode was measured at, at least: fewer hardly tell shapes apart
 
 
 def mixed(one: Fit, which: tuple[int, ...]) -> dict[int, np.ndarray]:
@@ -22,8 +22,8 @@ def mixed(one: Fit, which: tuple[int, ...]) -> dict[int, np.ndarray]:
     detuning = np.abs(np.log(np.sqrt(np.maximum(at.eigenvalues, 1e-300)) / (2 * np.pi))[:, None] - np.log(test.frequency_hz))
     found = {}
     for j in which:
-        own = [n for n in np.flatnonzero(detuning[:, j] < _NEAR).tolist() if _may_be(one, j, n)]
-        if own and np.isfinite(test.shapes[:, j]).sum() >= _SENSORS:
+        near = np.flatnonzero(detuning[:, j] < _NEAR) if np.isfinite(test.shapes[:, j]).sum() >= SENSORS else np.zeros(0, int)
+        if own := [n for n in near.tolist() if _may_be(one, j, n)]:
             found[j] = np.array(own)
     return found
 

@@ -8,7 +8,6 @@ import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe
 from mouse_cli.diagnosis.likelihoods.modal.carrying import Carrying
-from mouse_cli.diagnosis.likelihoods.modal.given import Given
 from mouse_cli.diagnosis.likelihoods.modal.growing import growing, grown
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
@@ -24,9 +23,9 @@ Softer = tuple[np.ndarray, np.ndarray]  # bars (c,), and what their stiffness ga
 Stencil = tuple[int, Parts, list[Softer]]  # number of a recipe, and the derivative of what it does
 
 
-class Model(Carrying, Given):
+class Model(Carrying):
     """A reduced model with causes: what it predicts at x, and by which derivatives."""
-    made_of = "base", "recipes"
+
     def __init__(self, base: Reduced, recipes: tuple[Recipe, ...] = ()):
         self.base, self.recipes = base, recipes
         self.k = base.L.shape[1]
