@@ -63,8 +63,8 @@ def carrying(ranking: Ranking, first: Fit) -> Shared | None:
     none, least = ranking.baseline.misfit, CARRIES * (ranking.baseline.misfit - first.misfit)
     enough = [one for one in ranking.fits if len(one.recipes) == 1 and none - one.misfit > least]
     for i in steady(first):
-        parts = set(first.recipes[i].parts)
-        if any(parts & set(one.recipes[0].parts) or _matched([own[i]], _mechanisms(one), reach) for one in enough):
+        ways = set(first.recipes[i].ways)
+        if any(ways & set(one.recipes[0].ways) or _matched([own[i]], _mechanisms(one), reach) for one in enough):
             return _summed((i,), own, every, reach)
     return None
 
@@ -85,7 +85,7 @@ def _among(one: Fit, other: Fit) -> bool:
         return False
     pairs = zip(one.recipes, other.recipes, _mechanisms(one), _mechanisms(other), strict=True)
     return all(
-        a[0] == b[0] and ((own.parts and set(own.parts) <= set(its.parts)) or _whole(own, a[2], b[2]))
+        a[0] == b[0] and ((own.ways and set(own.ways) <= set(its.ways)) or _whole(own, a[2], b[2]))
         for own, its, a, b in pairs
     )
 

@@ -67,10 +67,8 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None, choices: Choi
     return found if by_laws is None else replace(by_laws, remarks=found.remarks + by_laws.remarks)
 
 
-def by_its_modes(measured: Measured, notice: Notice, choices: Choices) -> tuple[Diagnosis, Fit | None]:
-    """The same by measured modes, or those that measured functions show, with all that was measured beside them; and the fit
-    of what is missing.
-    """
+def by_its_modes(measured: Measured, notice: Notice, choices: Choices) -> tuple[Diagnosis, Verdict]:
+    """The same by measured modes, or those that functions show, with all that was measured beside them; and the verdict."""
     first = begun(measured, notice)
     measured, problem, model = first.measured, first.problem, first.model
     housed(model, choices.candidates)
@@ -81,8 +79,7 @@ def by_its_modes(measured: Measured, notice: Notice, choices: Choices) -> tuple[
     verdict, as_it_is = judge(ranking, measured.modes and _rejected(result, model, ranking), model), ranking.baseline
     kind, best, missing = verdict.kind, verdict.best, verdict.kind != NOTHING
     location = locate(as_it_is.model.base) if missing and as_it_is.model.base.data.by_shape else None
-    put = best if kind in (NAMED, ONE_OF) else verdict.field
-    deck, of_deck, unfit = _extended(problem, put)
+    deck, of_deck, unfit = _extended(problem, verdict.put)
     answer = Diagnosis(
         problem=problem,
         kind=kind,
@@ -97,8 +94,8 @@ def by_its_modes(measured: Measured, notice: Notice, choices: Choices) -> tuple[
         misstated=misstated(ranking) if missing else None,
         proposals=_proposals(ranking, verdict),
         remarks=(*measured.doubts, *remarks, *measured.remarks(ranking), *first.remarks, *unfit, *(_coarse(deck) if deck else ())),
-        extended=deck and measured.extended(deck, put),
-        extended_result=deck and _update(deck, of_deck, notice, _values(deck, put), enough)[0],
+        extended=deck and measured.extended(deck, verdict.put),
+        extended_result=deck and _update(deck, of_deck, notice, _values(deck, verdict.put), enough)[0],
         choices=choices,
         field=verdict.field and field_of(ranking, verdict.field, verdict.field_proof),
         rest=rest(ranking) if kind == NAMED else None,
@@ -106,7 +103,7 @@ def by_its_modes(measured: Measured, notice: Notice, choices: Choices) -> tuple[
         **_tried(ranking),
         **measured.compared(ranking, best if missing else None),
     )
-    return answer, put
+    return answer, verdict
 
 
 def _extended(problem: Problem, put: Fit | None) -> tuple[Problem | None, np.ndarray | None, tuple[str, ...]]:
@@ -139,8 +136,7 @@ def _tried(ranking: Ranking) -> dict[str, object]:
 def _open(verdict: Verdict) -> dict[str, object]:
     """What is certain where companions are open, whether the site is no longer, and where a place is not."""
     open_ = {"certain": verdict.certain and certain(verdict.best, verdict.certain), "placed": verdict.placed}
-    sure = verdict.certain and verdict.certain.which
-    return open_ | {"loose": loose(verdict.best, sure) if verdict.kind == NAMED else ()}
+    return open_ | {"loose": loose(verdict.best, verdict.sure) if verdict.kind == NAMED else ()}
 
 
 def _by_modes(problem: Problem) -> Problem:

@@ -60,6 +60,16 @@ class Verdict:
     certain: Shared | None = None
     placed: bool = True
 
+    @property
+    def put(self) -> Fit | None:
+        """What goes into a deck: the fit that leads, or the rival without a name."""
+        return self.best if self.kind in (NAMED, ONE_OF) else self.field
+
+    @property
+    def sure(self) -> tuple[int, ...] | None:
+        """Numbers of the mechanisms of `put` that are certain, where its companions are open; None: all are."""
+        return None if self.certain is None else self.certain.which
+
 
 def judge(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:
     """What may be said of all fits; one of several predicts as all hypotheses together do."""

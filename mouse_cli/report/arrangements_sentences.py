@@ -28,6 +28,11 @@ _VERDICTS = {
     UNKNOWN: "More remains than noise, and no candidate explains it. Do not trust the revised parameters.",
 }
 _BY_ITSELF = "Diagnose one of the decks before by itself, and put what it lacks into all decks."
+_BESIDE_NAMED = (
+    "No change was sought beside that: with it in them the decks are no structures, or do not explain the state before. Put into "
+    "all decks what of it is right."
+)
+_BESIDE_OPEN = "No change was sought: what the state before lacks is not settled, and a change beside it would be put elsewhere."
 _EVEN = 0.5  # probability of no mechanism up to which one is called likely
 
 
@@ -52,13 +57,20 @@ def _state(found: ArrangementsDiagnosis) -> Iterator[str]:
 def _sought(found: ArrangementsDiagnosis) -> tuple[str, ...]:
     first = list(_unchanged(found)) if found.unchanged else [_VERDICTS[found.kind]]
     if found.kind == UNKNOWN and found.unsought:
-        first = [found.unsought, *([] if found.state else [_BY_ITSELF]), "Do not trust the revised parameters."]
+        first = [*_unsought(found), "Do not trust the revised parameters."]
     elif found.kind == UNKNOWN and found.field is not None:
         first = list(field_sentences(found.field))
     elif found.remaining is not None:
         first.append(f"None of the following is proved: with all of it in the model {remains(found.remaining)}.")
     steps = [f"{number}. {_step(turn, found.kind != UNKNOWN)}" for number, turn in enumerate(found.turns, 1)]
     return (*first, *steps)
+
+
+def _unsought(found: ArrangementsDiagnosis) -> tuple[str, ...]:
+    """Why no change was sought, and what to do."""
+    if found.state is None:
+        return found.unsought, _BY_ITSELF
+    return (_BESIDE_NAMED if found.state.kind == NAMED else _BESIDE_OPEN,)
 
 
 def _unchanged(found: ArrangementsDiagnosis) -> Iterator[str]:

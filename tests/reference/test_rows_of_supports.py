@@ -3,6 +3,7 @@ frames of which the deck has one element a member.
 """
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from benchmarks.blind.space import frames
 from benchmarks.blind.space.__main__ import written
 from benchmarks.blind.test_data import Config
 from mouse_cli.diagnosis.effects.support_sets import support_sets
+from mouse_cli.diagnosis.search.pared import _within
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
 from mouse_cli.model.diagnosis import Choices
@@ -54,6 +56,28 @@ def test_a_row_that_sinks_alike_is_one_flexible_support(tmp_path):
     assert cause.site.ids == (1, 4) and cause.site.text.endswith("TZ, all alike")
     (size,) = cause.sizes
     assert size.value == pytest.approx(SINKING, abs=3 * size.sd)
+
+
+def test_a_foot_that_sinks_is_flexible_along_no_other_axis(tmp_path):
+    """It is begun along several axes at once, and keeps those that it needs."""
+    pytest.importorskip("openseespy")
+    problem = mouse_cli.read_deck(deck(tmp_path, ONE_BAY, 6, [[0, 3, SINKING]]))
+    found = mouse_cli.diagnose(problem, choices=Choices(candidates=("support-translation",), causes=1))
+    (cause,) = found.best.causes
+    assert cause.site.text == "the support of node 1, TZ"
+    (size,) = cause.sizes
+    assert size.value == pytest.approx(SINKING, abs=3 * size.sd)
+
+
+def test_fewer_ways_are_tried_one_step_at_a_time():
+    """One direction less, or one foot less in all of its directions; of feet that have no such recipe, none."""
+    of = lambda *ways: SimpleNamespace(ways=ways)
+    one = of("1TZ", "1TX", "1TY")
+    others = [of("1TZ"), of("1TZ", "1TY"), of("1TX", "1TY"), of("2TZ"), of("1TZ", "2TZ"), of()]
+    assert _within(one, others) == others[1:3]
+    feet = of("1TZ", "1RX", "2TZ", "2RX")
+    fewer = [of("1TZ", "2TZ"), of("1RX", "2RX"), of("1TZ", "1RX"), of("1TZ")]
+    assert _within(feet, [feet, *fewer]) == fewer[:3]
 
 
 def test_modes_that_are_held_out_are_predicted_for_a_finer_mesh(tmp_path):

@@ -2,19 +2,24 @@
 
 import json
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from scipy.stats import multivariate_normal
 
 from mouse_cli.cli.main import _run
-from mouse_cli.diagnosis.likelihoods.configurations import diagnose
+from mouse_cli.diagnosis.likelihoods.configurations import changes, diagnose
+from mouse_cli.diagnosis.likelihoods.configurations.diagnose import Decks
 from mouse_cli.diagnosis.likelihoods.configurations.erring import _evidence, before
 from mouse_cli.diagnosis.likelihoods.configurations.model import Arranged
 from mouse_cli.diagnosis.likelihoods.configurations.shared import Errors
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
+from mouse_cli.diagnosis.mechanisms import registry
+from mouse_cli.diagnosis.search.fit import fit
 from mouse_cli.formats import read_deck
+from mouse_cli.report import arrangements_sentences
 from tests.reference.test_arrangements import MASS, SENSORS, K, N, measured
 
 
@@ -138,6 +143,32 @@ def test_what_the_state_before_lacks_is_found_first_and_the_change_beside_it(tmp
     assert sentences[0].startswith("The model does not explain the state before. Diagnosed by itself: The model lacks")
     first, then = (read_deck(revised / f"{name}.yaml") for name in ("before", "after"))
     assert len(then.parameters) == len(first.parameters) + 1 == 3
+
+
+def test_only_what_is_certain_of_the_state_before_goes_into_all_decks(tmp_path):
+    """What may act beside it is sought with the change."""
+    decks = [read_deck(grounded(tmp_path, *each)) for each in (("before", 1), ("after", 2, 0.4))]
+    model = reduced(decks[0], decks[0].prior.mean)
+    recipes = tuple(each.recipes(model, each)[0] for each in map(registry().get, ("mass", "ground-spring")))
+    both = fit(Model(model, recipes), np.array([0.5, 0.5]))
+    parts = Decks(tuple(decks), (False, True), 0.01)
+    names = lambda found: [parameter.name for parameter in found.problems[1].parameters[1:]]
+    mass, spring = names(changes._with(parts, both, None))
+    assert names(changes._with(parts, both, (1,))) == [spring] != [mass]
+
+
+@pytest.mark.parametrize(("kind", "said"), [("named", "No change was sought beside that"), ("one-of", "is not settled")])
+def test_a_change_that_is_not_sought_says_why(tmp_path, monkeypatch, kind, said):
+    """Beside what has a name, and yet does not leave a model of the state before; and beside what has none."""
+    monkeypatch.setattr(diagnose, "rank", None)
+    monkeypatch.setattr(changes, "_of_before", lambda *args: (SimpleNamespace(kind=kind), None))
+    monkeypatch.setattr(arrangements_sentences, "of_one", lambda state: ["It lacks this."])
+    decks = [measured(tmp_path, *each) for each in (("before", 1), ("after", 2, 0.3))]
+    for path in decks:
+        edited(path, "nodes: 1-8, mass: 1.0", OTHER_MASSES)
+    found = changes.diagnose_changes(Decks(tuple(map(read_deck, decks)), (False, True), 0.01), Decks((), (), 0.01))
+    text = " ".join(arrangements_sentences.sentences(found))
+    assert said in text and found.shared == () and "Diagnose one of the decks before" not in text
 
 
 def test_a_change_is_named_where_theory_errs_far_more_than_stated(tmp_path):

@@ -70,6 +70,12 @@ def support_site(problem: Problem, held: Sequence[Held], alike: bool = True) -> 
     return Site("node", ids, position, f"the support of node {ids[0]}, {direction}")
 
 
+def ways(problem: Problem, sets: list[list[Held]]) -> tuple[str, ...]:
+    """Names of supports, one a set; empty where some are alike."""
+    single = all(len(held) == 1 for held in sets)
+    return tuple(f"{problem.mesh.node_ids[node]}{DIRECTIONS[d]}" for held in sets for node, d in held) if single else ()
+
+
 def stiffness_name(problem: Problem, sets: list[list[Held]], i: int) -> str:
     """What the stiffness of a set is called: one of several by its node, its direction, or both."""
     if len(sets) == 1:

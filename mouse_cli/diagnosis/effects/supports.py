@@ -18,7 +18,14 @@ from mouse_cli.diagnosis.effects.released import (
     resistance,
     static,
 )
-from mouse_cli.diagnosis.effects.support_sets import by_direction, sprung, stiffness_name, support_sets, support_site
+from mouse_cli.diagnosis.effects.support_sets import (
+    by_direction,
+    sprung,
+    stiffness_name,
+    support_sets,
+    support_site,
+    ways,
+)
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.model.geometry import DIRECTIONS
@@ -156,6 +163,7 @@ def _recipe(
         extend=extend,
         carried=moved.carried,
         parts=_parts(model, found, which) if len(which) == len(sets) else (),
+        ways=ways(model.problem, held),
     )
 
 

@@ -13,12 +13,15 @@ from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.problem import Problem
 
 
-def extended(problem: Problem, one: Fit) -> Problem | None:
-    """The deck with each mechanism of a fit added as a parameter, or its field; None where one cannot be put into a deck."""
+def extended(problem: Problem, one: Fit, which: tuple[int, ...] | None = None) -> Problem | None:
+    """The deck with each mechanism of a fit (of those numbered `which`) added as a parameter, or its field; None where one cannot
+    be put into a deck.
+    """
     deck = of_field(problem, one) if one.nameless else problem
     if deck is None:
         return None
-    for recipe, own in zip(one.recipes, one.model.own, strict=True):
+    pairs = list(zip(one.recipes, one.model.own, strict=True))
+    for recipe, own in pairs if which is None else [pairs[i] for i in which]:
         if recipe.extend is None:
             return None
         deck = recipe.extend(deck, recipe.values(one.c[own]))

@@ -1,34 +1,43 @@
-"""Mechanisms without what they do not need: parts with a size of their own, and sizes beyond those of a plainer mechanism."""
+"""Mechanisms without what they do not need: ways in which they give, and sizes beyond those of a plainer mechanism."""
 
 from collections.abc import Iterator
 
 import numpy as np
 
+from mouse_cli.diagnosis.effects.change import Recipe
 from mouse_cli.diagnosis.gates import MATERIAL
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.study import Study
 
 
 def pared(one: Fit, study: Study) -> Fit:
-    """The fit without such parts as gain less than MATERIAL: a foot that is hardly flexible is none of those that are."""
-    if not any(len(recipe.parts) > 1 for recipe in one.recipes):
+    """The fit without such ways as gain less than MATERIAL: a foot that is hardly flexible is none of those that are, nor is one
+    that gives along one axis flexible along others.
+    """
+    if not any(len(recipe.ways) > 1 for recipe in one.recipes):
         return one
     best = max(_fewer(one, study.about(one)), key=lambda each: each.log_evidence, default=None)
     return one if best is None or best.log_evidence < one.log_evidence - MATERIAL else pared(best, study)
 
 
 def _fewer(one: Fit, there: Study) -> Iterator[Fit]:
-    """Fits of the same with one part less."""
+    """Fits of the same with as few ways less as there are recipes for."""
     own, k, base = there.own(one.recipes), one.model.k, there.model.judged_by(one.data)
     for j, recipe in enumerate(own):
-        for i in range(len(recipe.parts)):
-            rest = (*recipe.parts[:i], *recipe.parts[i + 1 :])
-            known = [each for each in there.recipes(recipe.candidate.key) if each.parts == rest != ()]
-            each_has = len(recipe.unknowns) // len(recipe.parts)
-            first = one.model.own[j].start + i * each_has
-            c = np.delete(one.c, slice(first, first + each_has))
-            models = [there.kind(base, (*own[:j], each, *own[j + 1 :])) for each in known]
-            yield from (again for model in models if (again := fit(model, c, one.point.x[:k])) is not None)
+        first = one.model.own[j].start
+        for fewer in _within(recipe, there.recipes(recipe.candidate.key) if len(recipe.ways) > 1 else []):
+            left_out = [first + i for i, way in enumerate(recipe.ways) if way not in fewer.ways]
+            model = there.kind(base, (*own[:j], fewer, *own[j + 1 :]))
+            again = fit(model, np.delete(one.c, left_out), one.point.x[:k])
+            if again is not None:
+                yield again
+
+
+def _within(recipe: Recipe, others: list[Recipe]) -> list[Recipe]:
+    """Those of `others` that have some of the ways of a recipe in its order, and that no other of them has more of."""
+    some = [each for each in others if each.ways and each.ways == tuple(way for way in recipe.ways if way in each.ways)]
+    less = [each for each in some if len(each.ways) < len(recipe.ways)]
+    return [each for each in less if not any(set(each.ways) < set(other.ways) for other in less)]
 
 
 def plainest(fits: list[Fit]) -> list[Fit]:

@@ -59,18 +59,21 @@ def _of_before(
     """What the state before lacks, and the decks with it in them; None where it has no name, or cannot be put into all."""
     asked = erring(fitted.arranged)
     scatters = asked is None or not asked.refused  # more than one mechanism is then no more than what members differ by
-    state, put = by_its_modes(Measured(before), notice, replace(choices, causes=1) if scatters else choices)
+    state, verdict = by_its_modes(Measured(before), notice, replace(choices, causes=1) if scatters else choices)
+    put = verdict.put
     if put is None or state.kind not in ((NAMED,) if scatters else (NAMED, ONE_OF)) or not explains(put):
         return state, None
-    parts = _with(fitted, put, before), _with(unseen, put, before)
-    return state, None if None in parts else parts
-
-
-def _with(decks: Decks, put: Fit, before: Problem) -> Decks | None:
-    """The same decks with what a fit of the state before has in it; None where that cannot be put into all of them."""
     if put.model.base.problem.structure.n != before.structure.n:
-        return None  # on shorter elements still, which decks of the others do not have
-    made = [extended(deck, put) for deck in decks.problems]
+        return state, None  # on shorter elements still, which decks of the others do not have
+    parts = [_with(decks, put, verdict.sure) for decks in (fitted, unseen)]
+    return state, None if None in parts else tuple(parts)
+
+
+def _with(decks: Decks, put: Fit, which: tuple[int, ...] | None) -> Decks | None:
+    """The same decks with what is certain of a fit of the state before (its mechanisms `which`; None: all) in them; None where
+    that cannot be put into all of them. What acts beside it is open, and sought with the change.
+    """
+    made = [extended(deck, put, which) for deck in decks.problems]
     if None in made:
         return None
     return replace(decks, problems=tuple(replace(deck, parameters=made[0].parameters) for deck in made))

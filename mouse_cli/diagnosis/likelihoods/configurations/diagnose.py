@@ -148,7 +148,9 @@ def diagnose_arrangements(
     held = _held_out(unseen.problems, first.before, at.before if turns else None)
     found = _answer(fitted, first.tests, at, tuple(turns), held, refuted, choices)
     found = replace(found, remarks=remarks + (state.remarks if state else ()), unsought=sought.refused)
-    return found if found.adequate or found.unchanged or found.unsought else replace(found, field=_field(at))
+    if found.unsought:
+        return replace(found, shared=())  # of a fit that has to explain the state after as well
+    return found if found.adequate or found.unchanged else replace(found, field=_field(at))
 
 
 def on_short_elements(fitted: Decks, unseen: Decks) -> tuple[Decks, Decks, tuple[str, ...]]:
