@@ -215,8 +215,8 @@ _FAR = (
     "is much too narrow, or the physics is another."
 )
 _OWN_MODE = (
-    "This mechanism has a mode of its own at {}, within the measured band, which the test does not have: look for it there; "
-    "unless it is measured, the mechanism is not proved."
+    "This mechanism has a mode of its own at {}, below the highest that was measured, which the test does not have: look for it "
+    "there; unless it is measured, the mechanism is not proved."
 )
 
 

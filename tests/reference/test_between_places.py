@@ -109,6 +109,19 @@ def test_a_share_of_a_mass_on_a_spring_is_taken_out_of_what_is_fixed():
     assert lowest(model(TIP % KG), "sprung-mass", [share, hz], "TY") == pytest.approx(expected, rel=1e-4)
 
 
+def test_liquid_sloshes_along_both_axes_of_a_tank():
+    """Along and across a light cantilever, EA / l and 3 EI / l^3: two masses on two springs in each."""
+    share, hz = 0.3, 0.02
+    k, masses = share * KG * (2 * np.pi * hz) ** 2, np.diag([(1 - share) * KG, share * KG])
+    found = model((TIP % KG).replace("A: 1.0e+6", "A: 0.01"))
+    recipe = recipe_of(found, "sprung-mass", "TX and TY alike")
+    at = Model(found, (recipe,)).point(np.append(found.z, recipe.coordinates(np.array([share, hz]))))
+    expected = [eigh([[tip + k, -k], [-k, k]], masses, eigvals_only=True) for tip in (0.01 / H, 3 * EI / H**3)]
+    assert at.eigenvalues[:4] == pytest.approx(np.sort(np.concatenate(expected)), rel=1e-3)
+    sites = [each.site(each.grid[0]).text for each in registry()["sprung-mass"].recipes(found, registry()["sprung-mass"])]
+    assert sites == ["mass 9, TX", "mass 9, TY", "mass 9, TX and TY alike"]
+
+
 def test_of_a_mass_that_is_hardly_a_body_all_may_be_on_a_spring():
     """A share of it would be too light to be sought, so that the search begins with the whole."""
     light = 1.2e-3 * KG

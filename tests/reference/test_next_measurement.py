@@ -11,6 +11,7 @@ from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.diagnosis.search.fit import fit
+from mouse_cli.diagnosis.validate import next_measurement
 from mouse_cli.diagnosis.validate.measurements import SHAPE_SD, measurements
 from mouse_cli.diagnosis.validate.next_measurement import chosen_places, order, proposals, separated
 from mouse_cli.formats import read_deck
@@ -51,6 +52,19 @@ def predicted(one, spring: bool, numbers, K_added=0.0, M_added=0.0, top=np.inf):
 def separation(rivals, sd, *how):
     (h, one), (g, other) = (predicted(each, spring, *how) for each, spring in zip(rivals, (True, False), strict=True))
     return 0.5 * (h - g) @ np.linalg.solve(sd**2 * np.eye(len(h)) + one + other, h - g)
+
+
+def test_a_mode_that_only_one_of_two_has_is_to_be_looked_for(rivals, monkeypatch):
+    """Whichever of the two has it; its absence speaks by the nats of `unseen`."""
+    own = {id(rivals[1]): (0.58,)}
+    monkeypatch.setattr(next_measurement, "unmeasured_hz", lambda one: own.get(id(one), ()))
+    monkeypatch.setattr(next_measurement, "unseen", lambda one: 5.4)
+    for order_, names in ((rivals, ["a", "b"]), (rivals[::-1], ["b", "a"])):
+        (found,) = [each for each in proposals(order_, names) if "whether there is a mode" in each.text]
+        assert found.text == "whether there is a mode at about 0.58 Hz, which a lumped mass would make"
+        assert (found.separation, found.effort, found.between) == (5.4, Effort.MODES, tuple(names))
+    own[id(rivals[0])] = (0.6,)
+    assert not [each for each in proposals(rivals, ["a", "b"]) if "whether there is a mode" in each.text]
 
 
 def test_every_kind_of_measurement(rivals):

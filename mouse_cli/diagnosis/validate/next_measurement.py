@@ -8,6 +8,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
+from mouse_cli.diagnosis.likelihoods.modal.unseen import unmeasured_hz, unseen
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.diagnosis.sites.points import directions
 from mouse_cli.diagnosis.validate.measurements import SHAPE_SD, Measurement, listed, measurements, places, unaltered
@@ -39,13 +40,24 @@ class Rivals:
             separation = _distance(self._of(first, number), self._of(second, number), each.sd)
             if np.isfinite(separation) and (each.kind not in best or separation > best[each.kind].separation):
                 best[each.kind] = Proposal(each.text, pair, separation, each.effort)
-        shapes = self._shapes(first, second, pair)
-        return [*best.values(), *([shapes] if shapes else [])]
+        others = self._shapes(first, second, pair), self._own_mode(first, second, pair)
+        return [*best.values(), *(each for each in others if each is not None)]
 
     def _of(self, which: int, number: int) -> Prediction | None:
         if (which, number) not in self._known:
             self._known[which, number] = predicted(self.fits[which], self.every[number])
         return self._known[which, number]
+
+    def _own_mode(self, first: int, second: int, pair: tuple[str, str]) -> Proposal | None:
+        """To look for a mode that one of the two has and no test yet; where there is none, its absence speaks as `unseen` says."""
+        found = [unmeasured_hz(self.fits[which]) for which in (first, second)]
+        if all(found) or not any(found):
+            return None
+        which, hz = (first, found[0]) if found[0] else (second, found[1])
+        where = ", ".join(f"{value:.3g}" for value in hz)
+        what = " and ".join(recipe.candidate.title for recipe in self.fits[which].recipes)
+        text = f"whether there is a mode at about {where} Hz, which {what} would make"
+        return Proposal(text, pair, unseen(self.fits[which]), Effort.MODES)
 
     def _shapes(self, first: int, second: int, pair: tuple[str, str]) -> Proposal | None:
         """Shapes at the fewest places that separate the two, where none were measured."""

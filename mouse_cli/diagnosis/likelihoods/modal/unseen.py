@@ -21,7 +21,7 @@ def unseen(one: Fit) -> float:
 
 
 def unmeasured_hz(one: Fit) -> tuple[float, ...]:
-    """Frequencies (Hz) of visible modes within the measured band that the mechanisms make and that nobody measured.
+    """Frequencies (Hz) of visible modes below the highest measured one that the mechanisms make and that nobody measured.
 
     A mode that the model has as it is, unseen, and that a mechanism makes visible, is none: `unseen` weighs it, no more.
     """
