@@ -157,3 +157,26 @@ def test_a_gain_that_the_prior_allows_is_no_mistake(tmp_path):
     path = deck(tmp_path, functions(2, 0.0) / 2)
     path.write_text(path.read_text().replace("sd: 1 %, outputs", "sd: 1 %, gain_sd: 30 %, outputs"))
     assert looked_at(path) == 10
+
+
+@pytest.mark.parametrize(
+    ("said", "share", "floor"),
+    [("1 %", 0.01, 0.0), ("0.002", 0.0, 2e-3), ("[1 %, 0.002]", 0.01, 2e-3), ("[2e-3, 1 %]", 0.01, 2e-3)],
+)
+def test_accuracy_is_a_share_of_the_magnitude_and_a_floor(tmp_path, said, share, floor):
+    """In the unit of the values of the file, m/s2 per N."""
+    H = functions(2, 0.0)
+    path = deck(tmp_path, H)
+    path.write_text(path.read_text().replace("5TX, sd: 1 %", f"5TX, sd: {said}"))
+    (found,) = read_deck(str(path)).frf
+    assert found.variance.reshape(H.shape) == pytest.approx(2 * (share * np.abs(H) + floor) ** 2, rel=1e-5)
+
+
+@pytest.mark.parametrize("said", ["[1 %, 2 %]", "[1 %]", "[0.1, 0.2]", "[1 %, 1, 2]", "[1 %, -1]", "[1 %, x]"])
+def test_accuracy_that_is_none_is_told_with_its_place(tmp_path, said):
+    path = deck(tmp_path, functions(2, 0.0))
+    path.write_text(path.read_text().replace("5TX, sd: 1 %", f"5TX, sd: {said}"))
+    with pytest.raises(DeckError) as refused:
+        read_deck(str(path))
+    assert {each.code for each in refused.value.diagnostics} <= {"MD215", "MD213"}
+    assert refused.value.diagnostics[0].span.line > 1

@@ -199,15 +199,18 @@ def _accuracy(section: Section) -> tuple[float | None, float | None]:
     node = section.nodes.get("sd")
     if node is None:
         return None, None
-    percent = yaml_values.as_percent(node)
-    value = (
-        yaml_values.number(section.document, node, section.what("sd"), KINDS["sd"].words)
-        if percent is None
-        else percent / 100
-    )
-    if value is not None and not 0 < value < np.inf:
-        section.wrong("sd", "MD215", f"is {value}; it must be positive and finite", "give what the repeats show")
-    return (None, value) if percent is None else (value, None)
+    parts = node.value if yaml_values.is_list(node) else [node]
+    relative = [yaml_values.as_percent(part) is not None for part in parts]
+    if yaml_values.is_list(node) and sorted(relative) != [False, True]:
+        text = "is a list of other values than a percentage and a number"
+        section.wrong("sd", "MD215", text, "give a percentage of the magnitude and the floor of the noise, such as [3 %, 1e-4]")
+        return None, None
+    values = [yaml_values.share(section.document, part, section.what("sd"), KINDS["accuracy"].words) for part in parts]
+    for value in values:
+        if value is not None and not 0 < value < np.inf:
+            section.wrong("sd", "MD215", f"is {value}; it must be positive and finite", "give what the repeats show")
+    found = dict(zip(relative, values, strict=True))
+    return found.get(True), found.get(False)
 
 
 def _banded(section: Section, whole: FrfDraft) -> FrfDraft | None:

@@ -54,6 +54,10 @@ KINDS = {
     "whole": Kind("a whole number", _WHOLE),
     "number": Kind("a number", _NUMBER),
     "sd": Kind("a number or a percentage such as 5 %", {"anyOf": [_NUMBER, _PERCENT]}),
+    "accuracy": Kind(
+        "a number, a percentage such as 5 %, or a list of both, [5 %, 0.001]",
+        {"anyOf": [_NUMBER, _PERCENT, _list({"anyOf": [_NUMBER, _PERCENT]}, minItems=2, maxItems=2)]},
+    ),
     "texts": Kind("a list of names", _list(_NAME)),
     "numbers": Kind("a list of numbers", _list(_NUMBER, minItems=1)),
     "wholes": Kind("a list of whole numbers", _list(_WHOLE)),

@@ -79,7 +79,10 @@ SECTIONS = {
             ),
             "band": Key("pair", "lowest and highest frequency that is used", "all lines", "Hz"),
             "sd": Key(
-                "sd", "of the real and the imaginary part; a percentage is of the magnitude", "by coherence and averages, if known"
+                "accuracy",
+                "of the real and the imaginary part; a percentage is of the magnitude, a list the sum of both: without a floor of "
+                "their noise antiresonances are as accurate as a percentage of nearly nothing",
+                "by coherence and averages, if known",
             ),
             "form": Key(
                 "choice", "what is fitted: the functions, ln of their magnitudes, or that and their phases", FORMS[0], choices=FORMS
