@@ -13,11 +13,14 @@ from mouse_cli.cli.main import cli
 
 C = 1.2e-4 * K
 K3 = 2e8
+STOP, GAP = 2e4, 1e-3  # N/m, as the spring to the ground; m, a fifth of the largest motion
 INPUTS = "      inputs: [{{sensor: 2, channel: f, quantity: force, unit: N}}]\n"
 
 
-def decays(folder: Path, law: float, noise: float = 0.01) -> Path:
-    """A deck with two decays from rest, a cubic spring between the masses; springs 2 % off those of the deck, damping 10 %."""
+def decays(folder: Path, law: float, noise: float = 0.01, stop: float = 0.0) -> Path:
+    """A deck with two decays from rest, a cubic spring between the masses or a stop beyond GAP of the second one; springs 2 % off
+    those of the deck, damping 10 %.
+    """
     t, rng, text = np.arange(int(2.0 * RATE)) / RATE, np.random.default_rng(5), ""
     head, item = DECK.split("  recordings:\n")
     item = item.replace(INPUTS, "      free_decay: true\n")
@@ -26,7 +29,8 @@ def decays(folder: Path, law: float, noise: float = 0.01) -> Path:
 
         def rates(_, s):
             F = law * (s[1] - s[0]) ** 3
-            return np.concatenate([s[2:], -1.02 * K @ s[:2] - 1.1 * C @ s[2:] - np.array([-F, F])])
+            against = np.array([0.0, stop * max(s[1] - GAP, 0.0)])
+            return np.concatenate([s[2:], -1.02 * K @ s[:2] - 1.1 * C @ s[2:] - np.array([-F, F]) - against])
 
         s = solve_ivp(rates, (0, t[-1]), [*begin, 0, 0], "DOP853", t, rtol=1e-10, atol=1e-14).y
         a = np.array([rates(0, each)[2:] for each in s.T])
@@ -56,6 +60,15 @@ def test_a_cubic_spring_is_found_without_a_force(tmp_path):
     assert (verdict["kind"], verdict["physics"], verdict["site"]["ids"]) == ("named", "cubic", [1, 2])
     assert abs(size["value"] - K3) < 4 * size["sd"] + 0.01 * K3
     assert found["held_out"]["records"][0]["title"] == "run1"
+
+
+def test_a_stop_that_bears_from_the_beginning_is_found(tmp_path):
+    """It hides the place where the decay begins: the model as it is would need another one to move so, and stray by ten times."""
+    path = decays(tmp_path, 0.0, stop=STOP)
+    found = answer("diagnose", str(path), "--candidates", "one-sided-gap,bilinear,spring,cubic,gap")
+    verdict, (stiffness, gap) = found["verdict"], found["candidates"][0]["parameters"]
+    assert (verdict["kind"], verdict["physics"], verdict["site"]["ids"]) == ("named", "one-sided-gap", [2])
+    assert stiffness["value"] == pytest.approx(STOP, rel=0.02) and gap["value"] == pytest.approx(GAP, rel=0.02)
 
 
 def test_identify_takes_the_decays_of_a_deck(tmp_path):

@@ -15,7 +15,7 @@ from two_masses import linear, record
 from mouse_cli.cli.main import cli
 from mouse_cli.diagnosis.likelihoods.history import shown as showing
 from mouse_cli.diagnosis.likelihoods.history.order import alike
-from mouse_cli.diagnosis.likelihoods.history.search import Weighed, doubled, plainest
+from mouse_cli.diagnosis.likelihoods.history.search import Weighed, _one_less, doubled, plainest
 from mouse_cli.diagnosis.likelihoods.history.shown import hidden, undamped
 from mouse_cli.diagnosis.likelihoods.history.verdict import decided, far, ranked
 from mouse_cli.formats import read_deck
@@ -272,17 +272,22 @@ def test_check_says_that_records_without_force_cannot_judge(tmp_path):
 
 
 @pytest.fixture(scope="module")
-def weighed_laws(tmp_path_factory):
-    """A record with a cubic spring; the model as it is, the law, and a rival at the same place."""
+def studied(tmp_path_factory):
+    """A record with a cubic spring."""
 
     def law(u, v):
         F = 2e8 * (u[1] - u[0]) ** 3
         return np.array([-F, F])
 
     problem = read_deck(record(tmp_path_factory.mktemp("cubic"), law))
-    own = study(problem, records(problem))
-    at = own.at(next(place for place in own.places if not place.ground))
-    return fitted(own, None), *(fitted(own, at.best(registry()[key], 0)) for key in ("cubic", "gap"))
+    return study(problem, records(problem))
+
+
+@pytest.fixture(scope="module")
+def weighed_laws(studied):
+    """The model as it is, the law, and a rival at the same place."""
+    at = studied.at(next(place for place in studied.places if not place.ground))
+    return fitted(studied, None), *(fitted(studied, at.best(registry()[key], 0)) for key in ("cubic", "gap"))
 
 
 def said(ratio: float, *fits):
@@ -342,6 +347,19 @@ def test_a_law_that_pairs_hold_which_do_not_do_is_named_with_what_remains(weighe
     assert said(0.3, baseline, partly, pair(law.hypothesis, law.misfit)).rest is None  # which explains the records
     elsewhere = pair(law.hypothesis.without_last.placed(there).at(registry()["gap"], 0), 0.05 * baseline.misfit)
     assert said(0.3, baseline, partly, held, elsewhere).kind == "unknown"  # another two leave as little without it
+
+
+def test_a_law_that_explains_all_needs_no_second_one(studied, weighed_laws):
+    """A stop in a ring-down was one stop and another of no size: what a pair gains is to be more than its law alone leaves out."""
+    baseline, law, _ = weighed_laws
+    there = replace(law.hypothesis.place, site=replace(law.hypothesis.place.site, text="elsewhere"))
+    both = law.hypothesis.placed(there).at(registry()["bilinear"], 0)
+    x = np.concatenate([law.x, both.mean[len(law.x) :]])
+    pair = replace(law, hypothesis=both, x=x, covariance=np.eye(len(x)))
+    groups = lambda gain: dict(ranked(Weighed(baseline, [law, replace(pair, log_evidence=law.log_evidence + gain)])).groups)
+    assert set(groups(2.0)) == {"none", "smooth-stiffness"} and len(groups(20.0)) == 3
+    (alone,) = _one_less(studied, pair)
+    assert alone.hypothesis.parts == law.hypothesis.parts and alone.misfit == pytest.approx(law.misfit, rel=1e-2)
 
 
 def test_a_second_law_is_sought_beside_the_plainest_of_those_that_leave_alike(weighed_laws):

@@ -1,6 +1,6 @@
 """What a record says of motions and of one unknown force, line by line of the spectrum, whatever the law of the force."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -14,6 +14,7 @@ _QUIET, _MOST = 9.0, 6  # times the slowest motion falls by e in the room after 
 _FIRST, _LEAST = 32, 32  # part of a free decay that shows its initial state; samples of it, at least
 _UNSEEN, _LOOSE = 1e-6, 10.0  # singular value of an initial state that is not seen; times the record that one may make
 _LOST = 1e12  # times the variance of its noise that a line has which hum or drift take
+_OF_MODEL = ("padded", "w", "H", "S", "SH", "begun", "window", "read", "_lost")  # what does not depend on how a decay begins
 _TAPER = 0.03  # share of the record at its end, and of its beginning where it does not begin at rest
 
 
@@ -35,12 +36,13 @@ class Spectrum:
     """A record and a linear model line by line: w (l,) rad/s; H (l, n, n) receptance; S (l, s, n): what sensors read of motion.
 
     missing (t, s): measured less the answer of the model, from rest. weights (l, s, s): of outputs over their sd, for noise
-    that is not white; None: 1.
+    that is not white; None: 1. state (2n,): in which a free decay begins; None: the one that its beginning shows.
     """
 
     series: Series
     linear: Linear
     weights: np.ndarray | None = None
+    state: np.ndarray | None = None
 
     @cached_property
     def padded(self) -> int:
@@ -235,10 +237,12 @@ class Spectrum:
         series, model = self.series, self.linear
         if not series.free:
             return np.zeros((3, len(series), len(model.M)))
-        m = self.first
-        columns = (self.begun[:, :m] / series.sd).reshape(len(self.begun), -1).T
-        size = np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
-        state = np.linalg.lstsq(columns / size, (self.read[:m] / series.sd).ravel(), rcond=_UNSEEN)[0] / size
+        state = self.state
+        if state is None:
+            m = self.first
+            columns = (self.begun[:, :m] / series.sd).reshape(len(self.begun), -1).T
+            size = np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
+            state = np.linalg.lstsq(columns / size, (self.read[:m] / series.sd).ravel(), rcond=_UNSEEN)[0] / size
         return np.stack([np.tensordot(state, free(model, len(series), series.dt, k), 1) for k in range(3)])
 
     def derivative(self, U: np.ndarray, order: int) -> np.ndarray:
@@ -248,18 +252,41 @@ class Spectrum:
             return self.history(U * lines)
         return self.history((U - self.line(self.released[0])) * lines) + self.released[order]
 
+    def begun_under(self, B: np.ndarray) -> "Spectrum":
+        """The same, begun as a free decay most probably does when unknown forces act through B (n, r), from its first sample on.
+
+        Least squares of all lines, weighed as they leave them: a stop that bears from the beginning is none of the initial state.
+        """
+        if not self.series.free:
+            return self
+        _, total = self._unknown(B)
+        D = np.stack([self.line(one * self.window[:, None]) for one in self.begun], axis=2)
+        weighed = np.linalg.solve(total, D)
+        A = np.einsum("lsi,lsj->ij", D.conj(), weighed).real
+        b = np.einsum("lsi,ls->i", weighed.conj(), self.line(self.read * self.window[:, None])).real
+        size = 1 / np.sqrt(np.maximum(np.diag(A), 1e-300))
+        state = size * np.linalg.lstsq(A * size * size[:, None], size * b, rcond=_UNSEEN**2)[0]
+        found = replace(self, state=state)
+        vars(found).update({name: own for name, own in vars(self).items() if name in _OF_MODEL})
+        return found
+
+    def _unknown(self, B: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """SH Q (l, s, n) and SH Q SH' + R (l, s, s) of unknown forces through B (n, r), and small ones everywhere."""
+        free = self.series.free
+        size, here = (self._impulse, _EVERYWHERE) if free else (np.sqrt((self._loads**2).mean(axis=0).sum()), _HERE)
+        unit = B / np.maximum(np.linalg.norm(B, axis=0), 1e-300)
+        Q = size**2 * (_EVERYWHERE**2 * np.eye(len(B)) + here**2 * unit @ unit.T)
+        noise = self.series.sd**2 * (len(self.series) if free else 1)  # of lines, as the impulses are, or of samples, as forces are
+        R = np.diag(noise) * np.where(self._lost, _LOST, 1.0)[:, None, None]
+        G = self.SH @ Q
+        return G, G @ self.SH.conj().transpose(0, 2, 1) + R
+
     def motions(self, B: np.ndarray) -> np.ndarray:
         """Lines (l, n) of the most probable motion when unknown forces act through B (n, r), and small ones everywhere.
 
         Forces of circular normal distribution with covariance Q: u = H f + H Q (SH)' (SH Q SH' + R)^-1 (y - S H f).
         """
-        free = self.series.free
-        size, here = (self._impulse, _EVERYWHERE) if free else (np.sqrt((self._loads**2).mean(axis=0).sum()), _HERE)
-        unit = B / np.maximum(np.linalg.norm(B, axis=0), 1e-300)
-        Q = size**2 * (_EVERYWHERE**2 * np.eye(len(B)) + here**2 * unit @ unit.T)
-        R = np.diag(self.series.sd**2) * np.where(self._lost, _LOST, 1.0)[:, None, None]
-        G = self.SH @ Q
-        total = G @ self.SH.conj().transpose(0, 2, 1) + R
+        G, total = self._unknown(B)
         solved = np.linalg.solve(total, self.closed[:, :, None])
-        begun = self.line(self.released[0]) if free else self.motion
+        begun = self.line(self.released[0]) if self.series.free else self.motion
         return begun + (self.H @ (G.conj().transpose(0, 2, 1) @ solved))[:, :, 0]

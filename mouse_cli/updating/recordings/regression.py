@@ -60,12 +60,12 @@ class Regression:
     def __init__(self, spectrum: Spectrum, hypothesis: Hypothesis, begun: np.ndarray | None = None, error: float = 0.0):
         self.base = hypothesis
         self.begun = np.zeros(hypothesis.nuisances) if begun is None else begun
-        self.spectrum = spectrum = _as_measured(spectrum, hypothesis, self.begun)
         place = hypothesis.place
         others = [*(one.directions for one in hypothesis.known), *(part.place.directions for part in hypothesis.parts)]
-        self._U = U = spectrum.motions(np.concatenate([place.directions, *others], axis=1))
+        acting = np.concatenate([place.directions, *others], axis=1)
+        self.spectrum = spectrum = _as_measured(spectrum, hypothesis, self.begun).begun_under(acting)
+        self._U = U = spectrum.motions(acting)
         self._states = spectrum.with_speed(np.concatenate([spectrum.derivative(U, order).T for order in (0, 1)]))
-        self._states[:, : spectrum.first] = np.concatenate(spectrum.released[:2, : spectrum.first].transpose(0, 2, 1))
         self.spread = self._states.std(axis=1)
         if spectrum.series.free:
             self.spread = np.maximum(self.spread, np.abs(np.concatenate(spectrum.released[:2], axis=1)).max(axis=0))

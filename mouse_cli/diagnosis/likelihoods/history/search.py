@@ -159,12 +159,22 @@ def _pairs(study: Study, notice: Notice, known: list[Law] | None, singles: list[
         tried.append(where(first))
         notice(f"a second law beside {first.hypothesis.law.title}, {first.hypothesis.parts[0].site.text}")
         found += _beside(study, notice, known, first, found)
-        if not found or adequate(min(found, key=innovation)):
+        if not found:
             break
+        if adequate(best := min(found, key=innovation)):
+            return found + _one_less(study, best)
         first = _other(study, min(found, key=innovation), tried)
         if first is None:
             break
     return found
+
+
+def _one_less(study: Study, pair: Fit) -> list[Fit]:
+    """A pair without its second law, begun where it ended: what a first search could not leave may be left beside another law."""
+    count = len(pair.hypothesis.parts[-1].unknowns)
+    first = pair.hypothesis.without_last.placed(pair.hypothesis.parts[0].place)
+    one = fitted(study, Start(first, pair.x[:-count], 0.0))
+    return [] if one is None else [one]
 
 
 def plainest(singles: list[Fit]) -> Fit:

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mouse_cli.diagnosis.gates import FAR, ODDS, SURE
+from mouse_cli.diagnosis.gates import MATERIAL as GAINED
 from mouse_cli.diagnosis.likelihoods.history.search import Weighed
 from mouse_cli.diagnosis.search.rank import Ranking, group, ranking
 from mouse_cli.diagnosis.verdict import leader
@@ -48,7 +49,8 @@ def ranked(found: Weighed) -> Ranking:
 
 
 def _telling(every: list[Fit], beside: Fit | None) -> list[Fit]:
-    """`every` without pairs that say nothing: those that neither explain the records nor take most of what the best law leaves.
+    """`every` without pairs that say nothing: those that neither explain the records nor take most of what the best law leaves, or
+    that gain less than MATERIAL over one of their laws, which explains them alone.
 
     Where no pair explains them, those that hold the best law at its site say no more than that it is there: it is judged alone,
     with what remains. beside: the fit that leaves noise, which explains them too.
@@ -62,7 +64,11 @@ def _telling(every: list[Fit], beside: Fit | None) -> list[Fit]:
     says = lambda one: (
         explains(one) or (_excess(one) <= _MOST * _excess(alone) and not (unexplained and _sites(alone) <= _sites(one)))
     )
-    return [one for one in every if count(one) < 2 or says(one)]
+    enough = [one for one in every if count(one) == 1 and explains(one)]
+    needed = lambda one: not any(
+        _sites(law) <= _sites(one) and one.log_evidence < law.log_evidence + GAINED for law in enough
+    )
+    return [one for one in every if count(one) < 2 or (says(one) and needed(one))]
 
 
 def _excess(one: Fit) -> float:
