@@ -480,3 +480,11 @@ def test_a_member_that_is_gone_is_called_missing(models):
     found = {recipe.site(recipe.grid[0]).text.endswith("its mass alike"): recipe for recipe in model.recipes(registry()["member"])}
     titles = {(alike, share): one.title(np.array([share])) for alike, one in found.items() for share in (0.5, 0.995)}
     assert titles == {(False, 0.5): "", (False, 0.995): "", (True, 0.5): "", (True, 0.995): "a missing member"}
+
+
+def test_a_part_that_has_lost_all_of_its_stiffness_bears_nothing(models):
+    """What gains any is no such part."""
+    for key, title in (("stiffness-loss", "a part that bears nothing"), ("stiffness-gain", "")):
+        model = models["matrices"]
+        recipe = model.recipes(registry()[key])[0]
+        assert [recipe.title(np.array([share])) for share in (0.5, 0.995)] == ["", title]

@@ -19,6 +19,7 @@ from mouse_cli.model.arrays import dense
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.problem import Problem
+from mouse_cli.model.revision import GONE
 
 _MOST, _RUNS = 60, 240  # places, and runs of them in a row, that are looked at: those that hold most energy in the lowest modes
 _FEW = 12  # directions of them that a search in few coordinates knows to soften
@@ -193,6 +194,7 @@ def _recipe(
         lambda values: site,
         log_prior=-float(np.log(count)),
         extend=extend,
+        title=lambda values: "a part that bears nothing" if sign < 0 and values[0] > 1 - GONE else "",
     )
 
 
