@@ -14,10 +14,12 @@ from mouse_cli.cli.main import cli
 from mouse_cli.dynamics.response import simulate
 from mouse_cli.formats import read_deck
 from mouse_cli.terms.laws import registry
+from mouse_cli.updating.recordings.acting import Part
 from mouse_cli.updating.recordings.ground import derivative
+from mouse_cli.updating.recordings.mistakes import check
 from mouse_cli.updating.recordings.pushed import pushed
 from mouse_cli.updating.recordings.records import records
-from mouse_cli.updating.recordings.regression import Start
+from mouse_cli.updating.recordings.regression import Start, starts
 from mouse_cli.updating.recordings.segments import Segments
 from mouse_cli.updating.recordings.series import REACH
 from mouse_cli.updating.recordings.study import fitted, study
@@ -345,3 +347,37 @@ def test_a_common_factor_is_set_by_the_prior(tmp_path):
         np.testing.assert_allclose(one[0], 1.1 * mean, rtol=1e-6, atol=1e-9 * np.abs(mean).max())
     x = np.concatenate([z, np.zeros(own.base.nuisances - linear.k)])
     assert np.abs(own.base.gauged(x)).max() < 0.05 * np.abs(z).max()
+
+
+@pytest.mark.parametrize(
+    ("outputs", "gain", "said"),
+    [
+        ("{1: f1, 2: f3, 3: f2}", 1.0, "with channels f3 and f2 exchanged"),
+        ("{1: f1, 2: f2, 3: f3}", 1.15, "if channel f2 reads 1.1"),
+    ],
+)
+def test_a_channel_on_a_table_that_is_another_one_or_scaled_is_told(tmp_path, outputs, gain, said):
+    """Masses 1 % sure would be 90 prior sd off for it; and 15 % of one channel passed for noise, with nothing missing."""
+    k = chain(K)
+    ag, _, floors, _ = absolute(M, damping(M, k), k, np.ones(3))
+    path = deck(tmp_path, ag, floors * [1.0, gain, 1.0], outputs=outputs)
+    problem = read_deck(str(path))
+    with pytest.raises(DeckError) as refused:
+        check(study(problem, records(problem)))
+    (found,) = refused.value.diagnostics
+    assert found.code == "MD457" and said in found.message
+
+
+def test_nothing_is_lost_that_the_model_does_not_have(tmp_path):
+    """A spring between floor 3 and the ground may be added; one is lost where the model has one, and no more than all of it."""
+    problem = read_deck(str(sound(tmp_path)))
+    own, law = study(problem, records(problem)), registry()["spring"]
+    links = {place.site.text: place.scale.link for place in own.places}
+    assert links["between degree of freedom 3 and the ground"] == 0 < links["between degree of freedom 2 and degree of freedom 3"]
+    for place in own.places:
+        assert law.variants_at(place.scale) == ([0, 1] if place.scale.link else [0])
+        lost = {start.hypothesis.parts[0].variant for start in starts([own.at(place)], [law])}
+        assert lost <= set(law.variants_at(place.scale))
+        if place.scale.link:
+            (size,) = Part(place, law, 1).unknowns
+            assert size.lower < size.upper <= place.scale.link

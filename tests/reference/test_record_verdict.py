@@ -15,12 +15,12 @@ from two_masses import linear, record
 from mouse_cli.cli.main import cli
 from mouse_cli.diagnosis.likelihoods.history import shown as showing
 from mouse_cli.diagnosis.likelihoods.history.order import alike
-from mouse_cli.diagnosis.likelihoods.history.search import Weighed, _one_less, doubled, plainest
+from mouse_cli.diagnosis.likelihoods.history.search import Weighed, _one_less, _quietly, doubled, plainest
 from mouse_cli.diagnosis.likelihoods.history.shown import hidden, undamped
 from mouse_cli.diagnosis.likelihoods.history.verdict import decided, far, ranked
 from mouse_cli.formats import read_deck
 from mouse_cli.model.diagnosis import Rest
-from mouse_cli.model.record_diagnosis import AS_IT_IS, WITH_CAUSE, RecordScore
+from mouse_cli.model.record_diagnosis import AS_IT_IS, WITH_CAUSE, Noise, RecordScore
 from mouse_cli.report.sections.records import _error, _proof
 from mouse_cli.report.verdict_sentences import remains
 from mouse_cli.terms.laws import registry
@@ -360,6 +360,26 @@ def test_a_law_that_explains_all_needs_no_second_one(studied, weighed_laws):
     assert set(groups(2.0)) == {"none", "smooth-stiffness"} and len(groups(20.0)) == 3
     (alone,) = _one_less(studied, pair)
     assert alone.hypothesis.parts == law.hypothesis.parts and alone.misfit == pytest.approx(law.misfit, rel=1e-2)
+
+
+def test_laws_that_explain_the_records_by_parameters_far_off_give_way_to_those_that_do_not(weighed_laws):
+    """Friction behind a spring, with a storey 12 sd off, left less than a spring that yields; each end of one fit counts once."""
+    baseline, law, rival = weighed_laws
+    x = np.concatenate([[-12.2], law.x[1:3], rival.x[3:]])
+    strained = replace(rival, x=x, misfit=law.misfit, log_evidence=law.log_evidence + 900)
+    assert strained.hypothesis is not law.hypothesis and far(strained, 1.0)
+    assert said(0.3, baseline, law, strained).kind == "named" and said(0.3, baseline, strained).kind == "unknown"
+    again = replace(law, log_evidence=law.log_evidence - 0.1)
+    found = ranked(Weighed(baseline, [again, law]))
+    assert len(found.fits) == 2 and any(one is law for one in found.fits)
+
+
+def test_what_leaves_noise_with_strained_parameters_asks_for_a_second_law(weighed_laws):
+    """A cubic spring beside a mass that the deck does not have, its masses 1 % sure: one of these was 9 sd off, and all unknown."""
+    _, law, _ = weighed_laws
+    quiet = Noise(np.ones(2), 0.0, 0.5, 0.0)
+    assert _quietly(replace(law, x=0 * law.x), quiet) and not _quietly(law, None)
+    assert not _quietly(replace(law, x=np.concatenate([[-9.0], law.x[1:]])), quiet)
 
 
 def test_a_second_law_is_sought_beside_the_plainest_of_those_that_leave_alike(weighed_laws):

@@ -69,7 +69,7 @@ class Law:
     costs more than a step. at: `anywhere`, `ground` where it acts only between a point and the ground, `link` where the model has a
     spring, `plane` between two directions of one body, or `body` along all that it translates by. limit: index of the unknown that
     a record must show, and the group of what the law is where it does not. motions: how many it couples, the first rows of
-    `matrices`.
+    `matrices`. linked: indices of variants that take from a spring which the model has, and no more than all of it.
     """
 
     key: str
@@ -90,6 +90,11 @@ class Law:
     limit: tuple[int, str] | None = None
     motions: int = 1
     prepare: Callable | None = None
+    linked: tuple[int, ...] = ()
+
+    def variants_at(self, scale: Scale) -> list[int]:
+        """Indices of the variants that can act in a motion of that scale."""
+        return [i for i in range(len(self.variants)) if i not in self.linked or scale.link > 0]
 
     def along(self, p: np.ndarray, words: dict[str, float]) -> Callable:
         """Its force(x, v, z) -> (F, z) at parameters p for many steps."""

@@ -25,4 +25,5 @@ LAW = Law(
     matrices=matrices,
     variants=SIGNS,
     words=("added", "lost"),
+    linked=(1,),
 )

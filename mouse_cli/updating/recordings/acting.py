@@ -8,6 +8,8 @@ import numpy as np
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.terms.laws import Law, Scale, Unknown
 
+_TAKEN = 1e-3  # share of a spring of the model that a law takes from it, at least
+
 
 def _columns(B: np.ndarray, across: np.ndarray | None) -> np.ndarray:
     return np.column_stack([B] if across is None else [B, across])
@@ -71,7 +73,10 @@ class Part:
     @property
     def unknowns(self) -> tuple[Unknown, ...]:
         """Its parameters and how large they may be."""
-        return self.ranges or self.law.unknowns(self.place.scale)
+        found, link = self.ranges or self.law.unknowns(self.place.scale), self.place.scale.link
+        if self.variant not in self.law.linked or not link:
+            return found
+        return (replace(found[0], lower=min(found[0].lower, _TAKEN * link), upper=min(found[0].upper, link)), *found[1:])
 
     @property
     def candidate(self) -> Law:

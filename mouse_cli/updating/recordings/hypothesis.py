@@ -21,6 +21,7 @@ class Hypothesis:
     offset (i,): prior sd of a constant that a force channel reads wrongly; known: laws that the deck has already; parts: laws with
     free parameters. place: that which is looked at, or that of the last law. fixed: x that no fit moves. ground:
     whether the motion of the ground is all that excites the model. channels: gains and delays that are uncertain.
+    inputs: names of the force channels.
     """
 
     linear: Linear
@@ -31,6 +32,7 @@ class Hypothesis:
     fixed: np.ndarray | None = None
     ground: bool = False
     channels: Calibration = KNOWN
+    inputs: tuple[str, ...] = ()
 
     @property
     def law(self) -> Law | None:
@@ -55,7 +57,7 @@ class Hypothesis:
     @property
     def names(self) -> tuple[str, ...]:
         """Of the nuisances."""
-        offsets = (f"offset of force {i + 1}" for i in range(len(self.offset)))
+        offsets = (f"offset of channel {name}" for name in self.inputs or range(1, len(self.offset) + 1))
         return (*self.linear.names, *offsets, *self.channels.names)
 
     @property

@@ -14,6 +14,7 @@ from mouse_cli._errors import ERROR, DeckError, Diagnostic
 from mouse_cli.model.channel_units import COMMON, target, unit
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.recording import MOTIONS, Channel, Recording
+from mouse_cli.updating.recordings.adequacy import INADEQUATE
 from mouse_cli.updating.recordings.free_force import Spectrum
 from mouse_cli.updating.recordings.records import in_order, records, reduced
 from mouse_cli.updating.recordings.regression import Regression
@@ -26,6 +27,8 @@ _EQUAL = 1.5  # times what the best reading leaves, up to which another one fits
 _FAR = 5.0  # prior standard deviations that nuisances may move in the right reading
 _WORST = 3  # channels, by what is left of them, that may be wrong by themselves
 _RATES = (2.0, 10.0, 1e3, 2 * np.pi)  # that a sample rate may be wrong by
+_PAIRED = 8  # channels that may be exchanged where the model leaves little
+_TURNS, _SLIGHT = 4, 0.02  # of a scale that is sought; a channel that is off by less is none that is wrong
 _LIKELY = 2  # units of a kind that one channel alone is taken to be in
 
 
@@ -41,17 +44,52 @@ class _Reading:
 def check(own: Study) -> None:
     """Raise DeckError (MD457) where the model leaves most of a record as it is read, and little of it in another reading.
 
+    Of channels that are exchanged also where it leaves little with parameters far from their prior, which make up for them; of one
+    that is scaled where the ground moves the model and the others are explained with it at another scale: no law of a channel is
+    sought there.
+
     Read otherwise are the loudest record, and that of which the model leaves most: it may be one of many that is wrong.
     """
     looks = [
         own.look,
         *(each.series.part(0, len(own.look)) for each in own.data if each.series.title != own.look.title),
     ]
-    left = [_left(_looked(own, each), _record(own, each)[1]) for each in looks]
+    read = [_looked(own, each) for each in looks]
+    left = [_left(at, _record(own, each)[1]) for at, each in zip(read, looks, strict=True)]
     worst = max(range(len(looks)), key=lambda i: left[i][1].max())
     for i in dict.fromkeys((0, worst)):
-        if left[i][1].max() >= _ASTRAY:
+        if left[i][1].max() >= _ASTRAY or _strained(read[i]):
             _check(own, looks[i], *left[i])
+    if own.base.ground:
+        _check_scales(own, looks[0], read[0], left[0][0])
+
+
+def _check_scales(own: Study, look: Series, at: Regression, before: float) -> None:
+    """Raise DeckError (MD457) where one output at another scale leaves no more than noise of a record, and as it is more."""
+    if at.nothing <= INADEQUATE * at.y.size:
+        return
+    record, _ = _record(own, look)
+    outputs = _columns(own.problem, own.records.outputs)
+    loudest = int(np.argmax((at.left[at.kept] ** 2).sum(axis=0)))
+    column, factor, there = outputs[loudest], 1.0, at
+    for _ in range(_TURNS):
+        factor /= 1 + _share(there, loudest)
+        there = _reread(own, _changed([column], factor)(record), look)
+        if there is None:
+            return
+    if there.nothing > INADEQUATE * there.y.size or _strained(there) or abs(factor - 1) < _SLIGHT:
+        return
+    name, reads = _named(record, [column]), f"{1 / factor:.4g} times what it measures"
+    remedy = f"check the calibration of {name}, which reads {reads}"
+    found = _Reading(f"if {name} reads {reads}", remedy, _changed([column], factor))
+    raise DeckError(_told(own.problem, record, before, [(_left(there, record.samples[:, outputs])[0], found)]))
+
+
+def _share(at: Regression, j: int) -> float:
+    """By how much output j is larger than the model says, its nuisances free."""
+    spectrum, left = at.spectrum, at.left[at.kept, j]
+    told = spectrum.whitened(spectrum.read * spectrum.window[:, None])[at.kept, j] - left
+    return float(told @ left) / max(float(told @ told), 1e-300)
 
 
 def _record(own: Study, look: Series) -> tuple[Recording, np.ndarray]:
@@ -65,9 +103,13 @@ def _check(own: Study, look: Series, before: float, by_channel: np.ndarray) -> N
     """Raise DeckError (MD457) where a record, of which the model leaves so much, is explained in another reading."""
     problem, (record, _) = own.problem, _record(own, look)
     outputs = _columns(problem, own.records.outputs)
-    worst = [outputs[i] for i in np.argsort(-by_channel)[:_WORST]]
+    if by_channel.max() < _ASTRAY:
+        readings = (_exchanged(record, i, j) for i, j in combinations(sorted(outputs)[:_PAIRED], 2))
+    else:
+        worst = [outputs[i] for i in np.argsort(-by_channel)[:_WORST]]
+        readings = _readings(problem, record, outputs, _columns(problem, own.records.inputs), worst)
     found = []
-    for each in _readings(problem, record, outputs, _columns(problem, own.records.inputs), worst):
+    for each in readings:
         after = _read(own, each.of(record), outputs, look)
         if after < _GAINED * min(before, 1.0):
             found.append((after, each))
@@ -96,14 +138,24 @@ def _columns(problem: Problem, channels: tuple[Channel, ...]) -> list[int]:
 
 def _read(own: Study, record: Recording, outputs: list[int], seen: Series) -> float:
     """Share of a record that is left; infinite where it cannot judge in that reading, or moves nuisances out of their prior."""
+    at = _reread(own, record, seen)
+    return np.inf if at is None or _strained(at) else _left(at, record.samples[:, outputs])[0]
+
+
+def _reread(own: Study, record: Recording, seen: Series) -> Regression | None:
+    """What the model makes of a record in that reading; None where it cannot judge."""
     try:
         (series,) = records(replace(own.problem, recordings=(record,), held_records=None)).fitted
     except DeckError:
-        return np.inf
+        return None
     look = reduced(series, own.model).part(0, len(seen))
-    at = _looked(own, replace(look, slow=seen.slow, disturbance=seen.disturbance))
-    z = at.begin(np.zeros_like(at.y), np.zeros(0))[0][: own.model.linear.k]
-    return np.inf if np.abs(z).max(initial=0.0) > _FAR else _left(at, record.samples[:, outputs])[0]
+    return _looked(own, replace(look, slow=seen.slow, disturbance=seen.disturbance))
+
+
+def _strained(at: Regression) -> bool:
+    """Whether nuisances of the model leave their prior."""
+    z = at.begin(np.zeros_like(at.y), np.zeros(0))[0][: at.base.linear.k]
+    return bool(np.abs(z).max(initial=0.0) > _FAR)
 
 
 def _looked(own: Study, look: Series) -> Regression:

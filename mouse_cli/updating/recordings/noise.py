@@ -35,7 +35,7 @@ def noise(spectrum: Spectrum, base: Hypothesis, places: list[Place], begun: np.n
     if (size * series.sd > LOUD * series.measured.std(axis=0)).any():
         return None
     weights, count, effective = whitening(spectrum, left)
-    if count < _LEAST or coherent(series.force[at.kept], left[at.kept]) > _FOLLOWS:
+    if count < _LEAST or coherent(series.force[at.kept], left[at.kept]) > _FOLLOWS or _scaled(at) > _FOLLOWS:
         return None
     white = replace(spectrum, weights=weights)
     grows = _growth(look(white, places[0]))
@@ -74,6 +74,17 @@ def coherent(force: np.ndarray, left: np.ndarray) -> float:
         cross = np.abs(csd(f[:, None], left, nperseg=length, axis=0)[1]) ** 2
         shared += float((cross[driven] / own[driven, None]).sum() / power)
     return shared - force.shape[1] * 2 / _AVERAGES
+
+
+def _scaled(at: Regression) -> float:
+    """Share of the power of what is left that is coherent with what the model says of the same channel: a channel that is scaled
+    or filtered, whose resonances are narrower than the lines of any coherence with the force.
+    """
+    spectrum, left = at.spectrum, at.left[at.kept]
+    told = spectrum.whitened(spectrum.read * spectrum.window[:, None])[at.kept] - left
+    power = (left**2).sum(axis=0)
+    shares = [coherent(told[:, [j]], left[:, [j]]) if told[:, j].any() and power[j] else 0.0 for j in range(left.shape[1])]
+    return float(power @ shares) / max(float(power.sum()), 1e-300)
 
 
 def whitening(spectrum: Spectrum, left: np.ndarray) -> tuple[np.ndarray, float, float]:
@@ -127,7 +138,7 @@ def _by_laws(at: Regression) -> float:
     """Largest share of what is left that a law of the library takes."""
     shares = [0.0]
     for law in allowed(at.local.place):
-        for variant in range(len(law.variants)):
+        for variant in law.variants_at(at.local.place.scale):
             start = at.best(law, variant)
             shares.append(0.0 if start is None else 1 - start.left / at.nothing)
     return max(shares)

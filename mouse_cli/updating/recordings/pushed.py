@@ -33,8 +33,8 @@ def _alike(one: Fit, i: int, place: Place, laws: list[Law] | None) -> Iterator[S
     there = one.hypothesis.linear.matrices(np.array([one.x[:k], back[:k]]))
     moved = [there[which][0] - there[which][1] for which in (2, 1, 0)]  # K, C, M, as laws have them
     for law in (each for each in allowed(place, laws) if each.linear and len(each.parameters) == 1):
-        for variant, words in enumerate(law.variants):
-            unit = law.on(B.shape[1], np.ones(1), words)
+        for variant in law.variants_at(place.scale):
+            unit = law.on(B.shape[1], np.ones(1), law.variants[variant])
             size = _size(moved, [B @ each @ B.T for each in unit]) if len(unit[0]) == B.shape[1] else 0.0
             if size > 0:
                 hypothesis = one.hypothesis.placed(place).at(law, variant)

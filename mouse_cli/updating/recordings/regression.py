@@ -295,6 +295,6 @@ def starts(looks: Iterable[Regression], laws: list[Law] | None = None) -> list[S
     found = []
     for at in looks:
         for law in allowed(at.local.place, laws):
-            options = [at.best(law, variant) for variant in range(len(law.variants))]
+            options = [at.best(law, variant) for variant in law.variants_at(at.local.place.scale)]
             found += [one for one in options if one is not None]
     return sorted(found, key=lambda one: one.left)

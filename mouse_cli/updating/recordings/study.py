@@ -130,6 +130,7 @@ def study(problem: Problem, found: Records, of: Modelled = uncertain) -> Study:
     ground = bool(first.base.any()) and not first.inputs.any()
     known = calibration(found.outputs, found.inputs)
     base = Hypothesis(model.linear, OFFSET * rms, acting(problem, model.basis), ground=ground, channels=known)
+    base = replace(base, inputs=tuple(one.name for one in found.inputs))
     loudest = max(fitted, key=lambda one: float((one.measured / one.sd).std()))
     look = loudest.part(0, min(len(loudest), _SAMPLES))
     return Study(problem, found, model, base, look, data, (low, high), length)

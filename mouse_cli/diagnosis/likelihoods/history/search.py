@@ -78,7 +78,7 @@ def weighed(study: Study, notice: Notice, known: list[Law] | None = None, causes
         return Weighed(baseline, [])
     check(study)
     quiet = _left(study, baseline) if unlikely(baseline) else None
-    noisy = quiet is not None and not strained(baseline, with_noise(baseline, quiet))
+    noisy = _quietly(baseline, quiet)
     if noisy and not doubtful(study.spectrum, study.base, study.places, quiet):
         return Weighed(baseline, [], quiet, baseline)
     if said := disturbed(study, baseline):
@@ -93,7 +93,7 @@ def weighed(study: Study, notice: Notice, known: list[Law] | None = None, causes
     if best is baseline or adequate(best):
         return Weighed(baseline, found, dropped=tuple(dropped.items()))
     quiet = _left(study, best)
-    if quiet is None and causes > 1:
+    if not _quietly(best, quiet) and causes > 1:
         found = undamped(study, found + shown(study, _pairs(study, notice, known, found), dropped), dropped)
         best = min(found, key=innovation)
         quiet = None if adequate(best) else _left(study, best)
@@ -104,6 +104,11 @@ def _left(study: Study, one: Fit) -> Noise | None:
     if odd(one, study.data) is not None:
         return None
     return noise(study.spectrum, one.hypothesis, study.places, one.x)
+
+
+def _quietly(one: Fit, quiet: Noise | None) -> bool:
+    """Whether a fit leaves noise with parameters where their prior allows them: what strains these asks for something more."""
+    return quiet is not None and not strained(one, with_noise(one, quiet))
 
 
 def _singles(study: Study, notice: Notice, known: list[Law] | None, baseline: Fit) -> list[Fit]:

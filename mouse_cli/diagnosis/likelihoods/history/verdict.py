@@ -37,7 +37,7 @@ _FAR_OVER = 10 * ODDS  # nats over no cause that such a name takes
 
 def ranked(found: Weighed) -> Ranking:
     """Probabilities as of every kind of test; coloured noise counts by the share of its samples that are independent."""
-    every = _telling([found.baseline, *found.fits], found.beside)
+    every = _telling(_sound([found.baseline, *_once(found.fits, found.beside)]), found.beside)
     share = 1.0 if found.noise is None else found.noise.effective
     less = lambda one: replace(
         one, misfit=share * one.misfit, dof=share * one.dof, log_evidence=share * one.log_evidence
@@ -46,6 +46,21 @@ def ranked(found: Weighed) -> Ranking:
     again, whole = ranking(views[0], views), {id(view): one for view, one in zip(views, every, strict=True)}
     fits = tuple(whole[id(view)] for view in again.fits)
     return replace(again, baseline=found.baseline, fits=fits, noise_scale=again.noise_scale / share)
+
+
+def _once(fits: list[Fit], beside: Fit | None) -> list[Fit]:
+    """Of the ends of one hypothesis, begun in several ways, the most probable; `beside` where it is one of them."""
+    best: dict[tuple, Fit] = {}
+    for one in sorted(fits, key=lambda one: (one is not beside, -one.log_evidence)):
+        best.setdefault(tuple((part.law.key, part.variant, part.place.where) for part in one.hypothesis.parts), one)
+    return [one for one in fits if any(one is each for each in best.values())]
+
+
+def _sound(every: list[Fit]) -> list[Fit]:
+    """`every` without laws that explain the records with parameters further from their prior than FAR, where one does without."""
+    if not any(adequate(one) for one in every[1:]):
+        return every
+    return [one for one in every if one is every[0] or not (np.abs(shifted(one)) > FAR).any()]
 
 
 def _telling(every: list[Fit], beside: Fit | None) -> list[Fit]:
