@@ -53,14 +53,21 @@ def test_when_it_changed_is_told_with_what_did(tmp_path, at_s):
     assert when.moved[0] == ("k2", pytest.approx(-8.0, abs=0.6))  # 40 % at an sd of 5 %
 
 
+def test_a_loss_of_a_fifth_is_surely_one(tmp_path):
+    """It is 4 prior sd of a spring that is 5 % sure, and hundreds of those by which either part knows it."""
+    problem = read_deck(loosened(tmp_path, 0.8, 6.1))
+    assert changed(study(problem, records(problem))).moved[0] == ("k2", pytest.approx(-4.0, abs=0.4))
+
+
 @pytest.mark.parametrize(
     "deck",
     [
         lambda folder: loosened(folder, 1.0, 6.1),
+        lambda folder: loosened(folder, 0.95, 6.1),  # as a warm day does
         lambda folder: loosened(folder, 0.6, 6.1, louder=3.0),  # another stiffness at another level may be a law
         lambda folder: record(folder, lambda u, v: 2e9 * (u[1] - u[0]) ** 3 * np.array([-1.0, 1.0])),
     ],
-    ids=["sound", "louder", "cubic"],
+    ids=["sound", "drifts", "louder", "cubic"],
 )
 def test_what_is_the_same_all_the_time_has_not_changed(tmp_path, deck):
     problem = read_deck(deck(tmp_path))

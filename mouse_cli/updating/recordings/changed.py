@@ -21,7 +21,9 @@ _FEWEST = 6  # stretches, of which the first third is fitted, or the last
 _DURING = 2  # stretches in which it changes, at most
 _LEVELS = 1.5  # ratio of the rms of both parts, up to which another stiffness is none of another level
 _TOLD = 3  # parameters that moved most
-_APART = 5.0  # prior sd that one of them moved, at least: what drifts within its prior is none that changed at once
+# Prior sd that one of them moved, at least, as what drifts within its prior is none that changed at once; times the sd by which
+# both parts know it
+_APART, _SURELY = 2.0, 5.0
 
 
 @dataclass(frozen=True)
@@ -73,10 +75,12 @@ def _told(own: Study, every, one: tuple[Fit, Sequence[int]], other: tuple[Fit, S
     """What changed from the earlier of two parts, each with its fit and the numbers of its stretches, to the later one."""
     (first, before), (last, after) = sorted((one, other), key=lambda part: min(part[1]))
     apart = last.x[: own.model.linear.k] - first.x[: own.model.linear.k]
-    if np.abs(apart).max(initial=0.0) < _APART or _louder(own, before, after):
+    known = sum(np.abs(np.diag(each.covariance))[: len(apart)] for each in (first, last))
+    far = (np.abs(apart) >= _APART) & (apart**2 >= _SURELY**2 * known)
+    if not far.any() or _louder(own, before, after):
         return None
     names, order = first.hypothesis.names, np.argsort(-np.abs(apart))[:_TOLD]
-    moved = tuple((names[i], float(apart[i])) for i in order if abs(apart[i]) >= _APART)
+    moved = tuple((names[i], float(apart[i])) for i in order if far[i])
     return Changed(_at(own, *every[max(before)], end=True), _at(own, *every[min(after)]), moved)
 
 
