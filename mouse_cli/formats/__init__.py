@@ -77,6 +77,13 @@ def write_deck(problem: Problem, path: str | os.PathLike[str]) -> list[str]:
     return [*written, path]
 
 
+def check_folder(problem: Problem, folder: str) -> None:
+    """Raises WrittenError where a deck of the problem could not be written to a folder: its recordings are not below it."""
+    from mouse_cli.formats.yaml_deck.writer_tests import test_lines
+
+    test_lines(problem, folder)
+
+
 def is_yaml(data: str | bytes, path: str = "") -> bool:
     """Whether a deck is in YAML: by its suffix, or by a line `mouse:` before any other key."""
     if path.lower().endswith(_YAML_SUFFIXES):

@@ -11,6 +11,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "property"))
 import samples
 
 from mouse_cli._errors import DeckError, RecordError
+from mouse_cli.cli.main import _run
 from mouse_cli.formats import read_deck, write_deck
 from mouse_cli.formats.recording_files import read_contents
 from mouse_cli.formats.recording_source import Choice, read_recording
@@ -558,6 +559,16 @@ def test_a_deck_stays_with_its_recordings(tmp_path):
     with pytest.raises(Exception, match="MD617"):
         write_deck(given, tmp_path / "below" / "deck.yaml")
     assert "file: run.csv" in Path(write_deck(given, tmp_path / "again.yaml")[-1]).read_text()
+
+
+def test_a_diagnosis_whose_deck_could_not_be_written_is_not_begun(tmp_path, monkeypatch, capsys):
+    """It ran for 213 s first."""
+    monkeypatch.setattr("mouse_cli.cli.commands.diagnose._Asked.of", None)  # what comes next
+    table(tmp_path / "run.csv", T, FORCE, MOTION)
+    problem(tmp_path, RUN)
+    (tmp_path / "below").mkdir()
+    assert _run(["diagnose", str(tmp_path / "deck.yaml"), "-o", str(tmp_path / "below" / "deck.yaml"), "-q"]) == 5
+    assert "MD617" in capsys.readouterr().err and not list((tmp_path / "below").iterdir())
 
 
 def test_file_without_data(tmp_path):

@@ -82,7 +82,7 @@ def command(
     check_figures()
     refuse_idle(decks, arranged, output, raw)
     choice = _Asked(_names(candidates, without), without is not None, causes, jobs)
-    problems, found = _answer(named, arranged, common_sd, choice, raw)
+    problems, found = _answer(named, arranged, common_sd, choice, output, raw)
     files = _revised(found, output, problems[0] if raw["folder"] else None)
     for path in reports:
         form = _FORMS.get(os.path.splitext(path)[1].lower())
@@ -114,17 +114,26 @@ class _Asked:
             raise click.UsageError(str(reason)) from reason
 
 
-def _answer(named: Named, arranged: bool, common_sd: float | None, choice: _Asked, raw: dict[str, object]):
-    """The problems of the decks fitted, and the diagnosis of one deck, or of configurations."""
+def _answer(
+    named: Named, arranged: bool, common_sd: float | None, choice: _Asked, output: str | None, raw: dict[str, object]
+):
+    """The problems of the decks fitted, and the diagnosis of one deck, or of configurations.
+
+    Raises WrittenError, before anything is computed, where a deck in `output` could not name the recordings.
+    """
     from mouse_cli.cli._decks import read_problem
     from mouse_cli.cli._terminal import progress, warn
     from mouse_cli.diagnosis.diagnose import diagnose
     from mouse_cli.diagnosis.names import NoSite
+    from mouse_cli.formats import check_folder
 
     problems = (
         (_measured(named.fitted[0], raw),) if raw["folder"] else tuple(read_problem(deck) for deck in named.fitted)
     )
     unseen = tuple(read_problem(deck) for deck in named.unseen)
+    if output is not None:
+        for problem in (*problems, *unseen):
+            check_folder(problem, output if arranged else os.path.dirname(output))
     warn(each for problem in (*problems, *unseen) for each in problem.warnings)
     choices = choice.of(problems[0])
     with progress() as (_, say):
