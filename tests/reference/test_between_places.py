@@ -14,7 +14,8 @@ from mouse_cli.diagnosis.localise.force import scores
 from mouse_cli.diagnosis.localise.ties import ties
 from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.diagnosis.search.starts import leading
-from mouse_cli.diagnosis.sites.pairs import MOST, pairs
+from mouse_cli.diagnosis.sites.knees import knees
+from mouse_cli.diagnosis.sites.pairs import MOST, ends, pairs
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
 from mouse_cli.model.arrays import dense
@@ -331,12 +332,40 @@ test:
     p = dict(zip(keys, np.exp(chosen.log_prior).tolist(), strict=True))
     panel = {key: p.pop(key) for key in [(1, 5), (2, 4), (2, 6), (3, 5), (4, 8), (5, 7), (5, 9), (6, 8)]}
     wide = {key: p.pop(key) for key in [(1, 9), (3, 7)]}
+    knees = {key: p.pop(key) for key in [each for each in p if max(each) > len(xyz)]}
     assert set(p) == {(1, 8), (2, 7), (2, 9), (3, 8), (1, 6), (3, 4), (4, 9), (6, 7)}
     first = panel[1, 5]
+    share = 0.25 if pieces > 1 else 0.0
+    assert sum(knees.values()) == pytest.approx(share)
     assert list(panel.values()) == pytest.approx([first] * 8)
     assert list(p.values()) == pytest.approx([first * 8 / 16] * 8)
     assert list(wide.values()) == pytest.approx([first * 8 / 18] * 2)
-    assert 8 * first * (1 + 1 / 2 + 2 / 18) == pytest.approx(1.0)
+    assert 8 * first * (1 + 1 / 2 + 2 / 18) == pytest.approx(1.0 - share)
+
+
+def test_knee_braces_join_members_that_meet_in_a_corner():
+    """One column of 3 m and one beam of 4 m, ten elements each: nodes within half of either, no leg three times the other."""
+    nodes = {i: (0.0, 0.3 * i) for i in range(11)} | {10 + i: (0.4 * i, 3.0) for i in range(1, 11)}
+    bar = "E: 2.1e+11, nu: 0.3, density: 7850, A: 0.01, Iy: 1.0e-5, Iz: 1.0e-5, J: 1.0e-5"
+    text = f"""mouse: 1
+model:
+  structure:
+    nodes: {{{", ".join(f"{n + 1}: [{x}, {y}]" for n, (x, y) in nodes.items())}}}
+    elements:
+      - {{id: 1-20, type: beam, nodes: 1-21, {bar}}}
+    supports: {{1: all}}
+    plane: XY
+test:
+  modes: {{number: [1], frequency: [1], frequency_sd: 1 %}}
+"""
+    mesh = model(text).problem.mesh
+    expected = {
+        (10 - i, 10 + j)
+        for i in range(1, 6)
+        for j in range(1, 6)
+        if 1 / 3 <= (0.3 * i) / (0.4 * j) <= 3
+    }
+    assert knees(mesh, ends(mesh)) == expected
 
 
 def test_two_places_that_predict_the_same_are_two():

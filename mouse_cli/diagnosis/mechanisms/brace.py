@@ -90,8 +90,8 @@ CANDIDATE = Candidate(
     "brace",
     "a spring between two points",
     "brace",
-    "a brace, cable, strut or tie that joins two points which nothing joins in the model: K + k b'b, b their elongation along the "
-    "line between them; two alike that cross in one panel of a frame; floors of a row of storeys, or masses of a chain, that are "
-    "not neighbours: their relative motion",
+    "a brace, cable, strut or tie that joins two points which nothing joins in the model (ends of members, point masses, or places "
+    "within members that meet in a corner): K + k b'b, b their elongation along the line between them; two alike that cross in one "
+    "panel of a frame; floors of a row of storeys, or masses of a chain, that are not neighbours: their relative motion",
     recipes,
 )

@@ -2,11 +2,13 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import lowest
+from mouse_cli.diagnosis.sites.knees import knees
 from mouse_cli.diagnosis.sites.left_out import between
 from mouse_cli.model.arrays import dense
 from mouse_cli.model.diagnosis import Site
@@ -15,6 +17,7 @@ from mouse_cli.model.mesh import Mesh
 
 ALONG = -1  # direction of a pair that acts along the line from one to the other
 MOST = 40  # pairs that are fitted
+_KNEES = 0.25  # share of the prior of pairs that knee braces have
 _STILL = 0.02  # share of the largest elongation in a measured mode below which a pair does not take part
 _SPRINGS = 60  # degrees of freedom or nodes up to which a model of springs is looked at
 _ENDS, _LOOKED = 600, 3000  # ends of members, and pairs of them, the closest first, that are looked at
@@ -67,7 +70,8 @@ def strained(model: Reduced, found: Pairs) -> np.ndarray:
 
 
 def pairs(model: Reduced) -> Pairs:
-    """Ends of members and point masses in sight of one another; in a row of springs all that are not neighbours.
+    """Ends of members and point masses in sight of one another, and places of knee braces; in a row of springs all that are not
+    neighbours.
 
     Along a straight line of bars nothing is in sight but the neighbour: a beam has none.
     """
@@ -83,13 +87,23 @@ def pairs(model: Reduced) -> Pairs:
 
 def _log_prior(model: Reduced, keys: np.ndarray) -> np.ndarray:
     """See `Pairs`: even over the logarithm of how many pairs are no more members apart, for braces cross a panel, and seldom a
-    building; any panel, be its bay short or long.
+    building; any panel, be its bay short or long. Knee braces have a share of their own, each as much of it as the other.
     """
     if model.motion is None or not len(keys):
         return np.full(len(keys), -np.log(max(len(keys), 1)))
-    members = apart(model.problem.mesh, keys)
+    mesh = model.problem.mesh
+    knee = ~np.isin(keys[:, :2], _own(mesh)).all(axis=1)
+    members = apart(mesh, keys[~knee])
     nearer = np.searchsorted(np.sort(members), members, side="right")
-    return -np.log(nearer) - np.log((1 / nearer).sum())
+    share = _KNEES if knee.any() and not knee.all() else float(knee.all())
+    found = np.full(len(keys), np.log(max(share, 1e-300) / max(knee.sum(), 1)))
+    found[~knee] = np.log1p(-share) - np.log(nearer) - np.log((1 / nearer).sum()) if len(nearer) else 0.0
+    return found
+
+
+def _own(mesh: Mesh) -> np.ndarray:
+    """Nodes (indices) between any two of which something may act: ends of members and point masses."""
+    return np.union1d(ends(mesh), laden(mesh))
 
 
 def apart(mesh: Mesh, keys: np.ndarray) -> np.ndarray:
@@ -185,14 +199,16 @@ def _none(model: Reduced) -> tuple[np.ndarray, np.ndarray]:
 def _between_ends(model: Reduced) -> tuple[np.ndarray, np.ndarray]:
     """Along the line between ends of members or point masses; in each direction where all nodes are in one row."""
     mesh = model.problem.mesh
-    found, together = np.union1d(ends(mesh), laden(mesh)), joined(mesh)
-    if not 2 < len(found) <= _ENDS:
+    own, together = _own(mesh), joined(mesh)
+    if not 2 < len(own) <= _ENDS:
         return _none(model)
+    cut = knees(mesh, ends(mesh))
+    found = np.union1d(own, np.array(sorted({node for pair in cut for node in pair}), int))
     u = np.array([model.node(int(i))[:3] for i in found])
     xyz = mesh.coordinates[found]
     if np.linalg.matrix_rank(xyz - xyz[0], tol=1e-9 * _size(mesh)) < 2:
         return _none(model) if model.bars is not None or len(found) > _SPRINGS else _in_a_row(u, found, together)
-    one, other = np.triu_indices(len(found), 1)
+    one, other = _candidates(found, own, cut)
     distance = np.linalg.norm(xyz[other] - xyz[one], axis=1)
     order = np.argsort(distance, kind="stable")
     order = order[distance[order] > 1e-6 * _size(mesh)][:_LOOKED]
@@ -202,6 +218,14 @@ def _between_ends(model: Reduced) -> tuple[np.ndarray, np.ndarray]:
     axis = (xyz[other] - xyz[one]) / distance[:, None]
     rows = np.einsum("cd,cdr->cr", axis, u[other] - u[one])
     return np.stack([found[one], found[other], np.full(len(one), ALONG)], axis=1), rows
+
+
+def _candidates(found: np.ndarray, own: np.ndarray, cut: set[tuple[int, int]]) -> tuple[np.ndarray, np.ndarray]:
+    """Indices among the nodes `found` of all pairs of `own`, and of those that are `cut`."""
+    one, other = np.triu_indices(len(own), 1)
+    whole = np.searchsorted(found, own)
+    more = np.searchsorted(found, np.array(sorted(cut - set(combinations(own.tolist(), 2))), int).reshape(-1, 2))
+    return np.concatenate([whole[one], more[:, 0]]), np.concatenate([whole[other], more[:, 1]])
 
 
 def _in_a_row(u: np.ndarray, nodes: np.ndarray, joined: set) -> tuple[np.ndarray, np.ndarray]:
