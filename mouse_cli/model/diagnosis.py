@@ -128,16 +128,18 @@ def members(explanations: Sequence[Explanation], group: str) -> tuple[tuple[str,
 def elsewhere(explanations: Sequence[Explanation], best: Explanation) -> tuple[tuple[tuple[Site, ...], float], ...]:
     """Rival sites of the physics of `best` with more than RIVAL of its probability, the most probable first.
 
-    Sites of one fit stand in its `elsewhere`; fits of the same physics at other sites are explanations of their own.
+    Sites of one fit stand in its `elsewhere`; fits of the same physics at other sites are explanations of their own. Sites that
+    read alike, in any order, are the same.
     """
     alike = [one for one in explanations if one.physics == best.physics]
     total = sum(one.probability for one in alike)
-    found: dict[tuple[Site, ...], float] = {}
+    read = lambda sites: tuple(sorted((site.kind, str(site.ids), site.text) for site in sites))
+    found: dict[tuple, list] = {}
     for one in alike if total > 0 else ():
-        moved = 0.0 if one.sites == best.sites else 1 - sum(share for _, share in one.elsewhere)
-        for sites, share in (*one.elsewhere, (one.sites, moved)):
-            found[sites] = found.get(sites, 0.0) + share * one.probability / total
-    return tuple(sorted(((s, p) for s, p in found.items() if p > RIVAL and s != best.sites), key=lambda item: -item[1]))
+        for sites, share in (*one.elsewhere, (one.sites, 1 - sum(share for _, share in one.elsewhere))):
+            found.setdefault(read(sites), [sites, 0.0])[1] += share * one.probability / total
+    found.pop(read(best.sites), None)
+    return tuple(sorted(((s, p) for s, p in found.values() if p > RIVAL), key=lambda item: -item[1]))
 
 
 @dataclass(frozen=True)

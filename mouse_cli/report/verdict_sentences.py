@@ -1,6 +1,6 @@
 """The verdict of a diagnosis in sentences: the same in printout, JSON document and page, for every kind of test."""
 
-from mouse_cli.model.diagnosis import BY_DECK, NAMED, NOTHING, ONE_OF, RIVAL, Diagnosis, Explanation, Rest
+from mouse_cli.model.diagnosis import BY_DECK, NAMED, NOTHING, ONE_OF, RIVAL, UNPROVED, Diagnosis, Explanation, Rest
 from mouse_cli.model.groups import enumerated
 from mouse_cli.model.record_diagnosis import RecordDiagnosis
 from mouse_cli.report.field_words import field_sentences
@@ -24,6 +24,7 @@ from mouse_cli.report.sections._diagnosis_wording import (
 
 _EVEN = 0.5  # probability of no mechanism up to which one is called likely
 _SURE = 0.95  # probability of what acts beside a name, from which on its place alone is open
+_AT_FAULT = {True: "The test is at fault, not the model:", False: "The test is at fault:"}  # by whether it alone may be
 
 
 def sentences(found: Diagnosis) -> tuple[str, ...]:
@@ -76,7 +77,7 @@ def _named(found: Diagnosis) -> tuple[str, ...]:
     best, members = found.best, inside(found)
     if not found.placed:
         return tuple(filter(None, (_panelled(found), _separating(found))))
-    begin = "The test is at fault, not the model:" if faulty(best) else "The model lacks"
+    begin = _AT_FAULT[_alone(found)] if faulty(best) else "The model lacks"
     if not members:
         other = (
             f"It may act elsewhere{rivals_of_site(found.elsewhere).removeprefix('; or')}." if found.elsewhere else ""
@@ -87,6 +88,11 @@ def _named(found: Diagnosis) -> tuple[str, ...]:
     first = f"{begin} {called(found)} ({with_p(found.probability)}): {members}{_rest(found.rest)}."
     at = f"If it is {best.title}, it acts here: {where(best)}{rivals_of_site(found.elsewhere)}."
     return tuple(filter(None, (first, at, _loose(found), _companions(found))))
+
+
+def _alone(found: Diagnosis) -> bool:
+    """Whether nothing may act beside what is named."""
+    return found.certain is None or dict(found.certain.companions).get("none", 0.0) > UNPROVED
 
 
 def _panelled(found: Diagnosis) -> str:

@@ -10,11 +10,12 @@ from test_sections import plain_python, valid
 
 from mouse_cli import report
 from mouse_cli._errors import MouseError, WrittenError
-from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, UNKNOWN, Choices, Diagnosis, Site
+from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, UNKNOWN, Certain, Choices, Diagnosis, Site
 from mouse_cli.plots import draw, registry, require
 from mouse_cli.report.renderers.printout import WIDTH
 from mouse_cli.report.section import Options, sections
 from mouse_cli.report.section import registry as every_section
+from mouse_cli.report.verdict_sentences import sentences
 from mouse_cli.updating.statuses import STATUSES
 
 SECTIONS = every_section()
@@ -119,7 +120,7 @@ def test_exit_codes():
             "one of {a spring to the ground; an open crack}. Measure this to separate them: the frequency of mode 5",
         ),
         ("one-of", "predicted separation 5.2, will settle it"),
-        ("one-of", "No mechanism is probable enough to be named: that takes a probability of 0.9."),
+        ("one-of", "No mechanism is probable enough to be named: that takes a probability of 0.95."),
         ("one-of", "| an open crack | local-stiffness | 0.30 |"),
         ("one-of", "| nothing | none | 0.10 |"),
         (
@@ -220,6 +221,10 @@ def test_a_faulty_sensor_is_no_fault_of_the_model():
     swapped = replace(found, explanations=(first, *found.explanations[1:]))
     told = report.printout(swapped)
     assert "The test is at fault, not the model: two sensors exchanged: sensors 3 and 4 (probability 0.98)." in told
+    open_, sure = (("ground-spring", 0.6), ("none", 0.4)), (("ground-spring", 1.0),)
+    for companions, said in ((open_, ", not the model:"), (sure, "fault: two")):
+        beside = replace(swapped, certain=Certain((cause,), 0.98, (), companions))
+        assert said in " ".join(sentences(beside))
 
 
 def test_a_doubtful_test_hides_no_field():

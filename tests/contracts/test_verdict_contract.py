@@ -153,6 +153,15 @@ def test_fits_of_the_same_physics_elsewhere_are_rival_sites():
     assert found == (((Site("node", (2,)),), pytest.approx(0.3)),)
 
 
+def test_sites_that_read_alike_are_no_rivals():
+    """A set that was found twice, its mass 0.2 micrometres apart and its parts in another order, was its own rival at 0.50."""
+    at = lambda *x, p: replace(explanation(SPRING, SPRING, ln_z=-1.0, probability=p), causes=tuple(
+        replace(SPRING, site=Site("node", (round(each),), (each, 0.0, 0.0), f"node {each:.2f}")) for each in x))  # fmt: skip
+    best = at(5.8805523, 1.0, p=0.5)
+    found = elsewhere([best, at(5.8805521, 1.0, p=0.3), at(1.0, 5.88, p=0.1), at(3.0, 1.0, p=0.1)], best)
+    assert [[site.text for site in sites] for sites, _ in found] == [["node 3.00", "node 1.00"]]
+
+
 def test_what_remains_is_said():
     found = DIAGNOSES["members"]()
     assert report.document(found)["verdict"]["rest"] == {"share": 0.12, "p": 3e-9}

@@ -6,6 +6,7 @@ import pytest
 
 from mouse_cli.diagnosis.search import alone as early
 from mouse_cli.diagnosis.search.found import Found
+from mouse_cli.diagnosis.search.rank import _once
 from mouse_cli.model.diagnosis import Site
 
 GROUPS = {"turns": "support", "in-a-wall": "support", "mass": "mass"}
@@ -61,3 +62,15 @@ def test_else_two_and_three_of_each_kind_begin_and_those_of_one_group_are_exchan
 def test_what_is_of_several_groups_is_left_as_it_is_and_no_more_begin_than_may_be_together(asked):
     early._begin(STUDY, Found(), [], 2)
     assert {count for count, _ in asked.begun} == {2} and not asked.exchanged
+
+
+def test_a_set_that_was_found_as_one_of_more_parts_is_one():
+    """In another order too; what has no name, and the model as it is, stay each for itself."""
+
+    def fit(nats: float, *names: str, nameless: object = None) -> SimpleNamespace:
+        sites = tuple(Site("node", (len(name),)) for name in names)
+        return SimpleNamespace(**vars(of(nats, 1.0, *names)) | {"sites": sites, "nameless": nameless})
+
+    none, field, other = fit(0.0), fit(3.0, nameless=1), fit(2.0, nameless=1)
+    one, again, alone = fit(5.0, "mass", "turns"), fit(6.0, "turns", "mass"), fit(1.0, "mass")
+    assert _once([none, one, field, again, other, alone]) == [none, field, again, other, alone]

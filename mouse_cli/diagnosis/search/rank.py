@@ -201,10 +201,22 @@ def _ranked(study: Study, causes: int, by_all: Callable[[Ranking], Ranking], las
     others = model.problem.frf or model.problem.recordings  # which may feel what modes do not
     if kind is Model and not others and any(one.nameless for one in fits) and not any(map(_simple, fits)):
         fits += joint_rivals(model, fits)
-    kept = fits if others else plainest(fits)
+    kept = _once(fits if others else plainest(fits))
     if len(fits) > 1 + len(singles) or len(kept) < len(fits):
         found = by_all(ranking(baseline, kept))
     return replace(found, untried=_untried(study, singles))
+
+
+def _once(fits: list[Fit]) -> list[Fit]:
+    """Of fits of the same mechanisms at the same sites, found as sets of more parts that were not needed, the most probable."""
+    best: dict[tuple, Fit] = {}
+    for one in fits:
+        pairs = zip(one.recipes, one.sites, strict=True)
+        key = tuple(sorted((recipe.candidate.key, site.kind, str(site.ids), site.text) for recipe, site in pairs))
+        other = best.get(key)
+        if one.nameless or not key or other is None or one.log_evidence > other.log_evidence:
+            best[key if key and not one.nameless else (id(one),)] = one
+    return [one for one in fits if any(one is each for each in best.values())]
 
 
 def explains(one: Fit) -> bool:

@@ -238,10 +238,14 @@ def _places(one: Fit) -> list[Fit]:
 
 
 def _leading(looked: list[Fit]) -> list[Fit]:
-    """Those of a first look that may lead when all lines are used."""
+    """Those of a first look that may lead when all lines are used: while even the best leaves more than noise, none is at its end,
+    and nats count by what it leaves.
+    """
     order = sorted(looked, key=lambda one: -one.log_evidence)
-    best = order[0].log_evidence if order else 0.0
-    return [one for i, one in enumerate(order) if i < _LEAST or best - one.log_evidence < _FAR / THIN]
+    if not order:
+        return []
+    best, reach = order[0].log_evidence, _FAR / THIN * max(1.0, order[0].misfit / max(order[0].dof, 1))
+    return [one for i, one in enumerate(order) if i < _LEAST or best - one.log_evidence < reach]
 
 
 def _together(fits: list[Fit]) -> list[Fit]:

@@ -43,7 +43,7 @@ from mouse_cli.report.verdict_sentences import faulty, remains, sentences
 _DEMANDED = 0.5  # probability of no cause below which others stay likely though the data do not demand them
 _FEW = 0.25  # share of all places that may hold half of the energy, for it to point anywhere
 _INFLATED = 1.05  # noise scale from which on it is told
-_SURE = 0.9  # probability from which on a doubt is none between groups
+_SURE = 0.95  # probability from which on a doubt is none between groups
 _GAIN, _RATIO = 3.0, 0.7  # what a proof takes: gain in log density, ratio of errors
 _ADEQUATE, _ODDS = 1e-3, 3.0  # p-value of what a candidate leaves, and log odds over none, by which it explains the data
 _OWN_MODE = ("oscillator", "sprung-mass")  # mechanisms that bring a mode with them, whatever group they are in
