@@ -28,6 +28,7 @@ from mouse_cli.model.diagnosis import (
     Size,
 )
 from mouse_cli.model.groups import leading
+from mouse_cli.model.site import as_read
 from mouse_cli.model.units import Units
 from mouse_cli.updating.chi_square import upper_tail
 
@@ -263,10 +264,10 @@ def explanation(one: Fit, probability: float = 0.0) -> Explanation:
 
 def _elsewhere(one: Fit) -> tuple[tuple[tuple[Site, ...], float], ...]:
     """Other sites of a fit and their probabilities, where these matter: optima that read alike are one, and none is its own."""
-    found: dict[tuple[str, ...], list] = {}
+    found: dict[tuple, list] = {}
     for other, share in one.elsewhere:
-        found.setdefault(tuple(site.text for site in other.sites), [other.sites, 0.0])[1] += share
-    found.pop(tuple(site.text for site in one.sites), None)
+        found.setdefault(as_read(other.sites), [other.sites, 0.0])[1] += share
+    found.pop(as_read(one.sites), None)
     return tuple((sites, share) for sites, share in found.values() if share > RIVAL)
 
 

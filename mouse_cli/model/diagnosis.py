@@ -34,6 +34,7 @@ from mouse_cli.model.result import ChiSquareTest, Result
 from mouse_cli.model.shared_place import SharedPlace, shared_place
 from mouse_cli.model.site import EVERYWHERE as EVERYWHERE
 from mouse_cli.model.site import Site as Site
+from mouse_cli.model.site import as_read
 from mouse_cli.model.units import Units
 
 NOTHING, NAMED, ONE_OF, UNKNOWN = "nothing-missing", "named", "one-of", "unknown"
@@ -128,17 +129,15 @@ def members(explanations: Sequence[Explanation], group: str) -> tuple[tuple[str,
 def elsewhere(explanations: Sequence[Explanation], best: Explanation) -> tuple[tuple[tuple[Site, ...], float], ...]:
     """Rival sites of the physics of `best` with more than RIVAL of its probability, the most probable first.
 
-    Sites of one fit stand in its `elsewhere`; fits of the same physics at other sites are explanations of their own. Sites that
-    read alike, in any order, are the same.
+    Those of one fit stand in its `elsewhere`, others in explanations of the same physics; sites that read alike are the same.
     """
     alike = [one for one in explanations if one.physics == best.physics]
     total = sum(one.probability for one in alike)
-    read = lambda sites: tuple(sorted((site.kind, str(site.ids), site.text) for site in sites))
     found: dict[tuple, list] = {}
     for one in alike if total > 0 else ():
         for sites, share in (*one.elsewhere, (one.sites, 1 - sum(share for _, share in one.elsewhere))):
-            found.setdefault(read(sites), [sites, 0.0])[1] += share * one.probability / total
-    found.pop(read(best.sites), None)
+            found.setdefault(as_read(sites), [sites, 0.0])[1] += share * one.probability / total
+    found.pop(as_read(best.sites), None)
     return tuple(sorted(((s, p) for s, p in found.values() if p > RIVAL), key=lambda item: -item[1]))
 
 

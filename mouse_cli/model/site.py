@@ -1,5 +1,6 @@
 """Where physics acts."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from math import dist
 
@@ -18,6 +19,11 @@ class Site:
 
 
 EVERYWHERE = Site("structure", text="the whole structure")
+
+
+def as_read(sites: Iterable[Site]) -> tuple[tuple[str, str, str], ...]:
+    """What is the same of sites that read alike, in whatever order, however little their positions differ."""
+    return tuple(sorted((site.kind, str(site.ids), site.text) for site in sites))
 
 
 def gap(one: Site, other: Site) -> float:

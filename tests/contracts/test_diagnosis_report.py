@@ -305,3 +305,11 @@ def test_examples_are_of_every_kind():
     assert {make().kind for make in DIAGNOSES.values()} == {NOTHING, NAMED, ONE_OF, UNKNOWN}
     assert all(isinstance(make().probability, float) for make in DIAGNOSES.values())
     assert np.isnan(DIAGNOSES["bare"]().probability)
+
+
+def test_one_mechanism_that_is_named_is_not_said_to_act_at_several_sites():
+    """A missing diagonal, which no single force replaces, was "distributed, or acts at several sites", below its name."""
+    two = DIAGNOSES["two"]()
+    first = replace(two.best, causes=two.best.causes[:1])
+    one = replace(two, explanations=(first, *two.explanations[1:]), groups=((first.group, 0.99), *two.groups[1:]))
+    assert "at several sites" in _told(two) and "at several sites" not in _told(one)

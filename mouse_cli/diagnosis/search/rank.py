@@ -36,7 +36,7 @@ from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.model.diagnosis import LAW, Untried
 from mouse_cli.model.groups import joined, shares
 from mouse_cli.model.shared_place import panels, together
-from mouse_cli.model.site import gap
+from mouse_cli.model.site import as_read, gap
 from mouse_cli.updating.chi_square import upper_tail
 
 NOISY = 1.5  # noise scale above which the accuracies of the test themselves are in doubt
@@ -212,7 +212,7 @@ def _once(fits: list[Fit]) -> list[Fit]:
     best: dict[tuple, Fit] = {}
     for one in fits:
         pairs = zip(one.recipes, one.sites, strict=True)
-        key = tuple(sorted((recipe.candidate.key, site.kind, str(site.ids), site.text) for recipe, site in pairs))
+        key = tuple(sorted((recipe.candidate.key, as_read((site,))) for recipe, site in pairs))
         other = best.get(key)
         if one.nameless or not key or other is None or one.log_evidence > other.log_evidence:
             best[key if key and not one.nameless else (id(one),)] = one

@@ -63,7 +63,7 @@ def answers(found: Diagnosis, options: Options) -> Iterator[Block]:
 
 def _where(found: Diagnosis) -> Iterator[Block]:
     units = found.problem.units
-    shapes = "" if found.kind == NAMED and faulty(found.best) else f"{_location(found.location)}{_energy(found)}"
+    shapes = "" if found.kind == NAMED and faulty(found.best) else f"{_by_shapes(found)}{_energy(found)}"
     if found.kind == NAMED:
         yield Text(f"{capital(whereabouts(found.best, units, found.elsewhere))}.{shapes}")
     elif found.kind == ONE_OF:
@@ -77,6 +77,12 @@ def _where(found: Diagnosis) -> Iterator[Block]:
         yield from map(Text, filter(None, [shapes.strip()]))
     else:
         yield Text(shapes.strip() or "No site can be given without a mechanism that explains the data.")
+
+
+def _by_shapes(found: Diagnosis) -> str:
+    """What shapes say of the place; not that it is many, where one mechanism is named, which need not act by one force."""
+    alone = found.kind == NAMED and len(found.best.causes) == 1
+    return "" if alone and found.location is not None and not found.location.single else _location(found.location)
 
 
 def _location(location: Location | None) -> str:
