@@ -3,7 +3,6 @@
 from itertools import combinations
 
 import numpy as np
-from scipy.linalg import block_diag
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, product, steps
 from mouse_cli.diagnosis.effects.losses import matrices_of
@@ -55,7 +54,7 @@ def _recipe(
     measured = model.data.test.frequency_hz[model.data.has_frequency]
     B = model.node(node)[list(axes)]
     a, along = len(axes), np.hstack([B, -np.eye(len(axes))])
-    moved = block_diag(-B.T @ B, np.eye(a))
+    moved = np.pad(-B.T @ B, (0, a)) + np.diag(np.append(np.zeros(B.shape[1]), np.ones(a)))
     site = Site("element", (number,), tuple(model.problem.mesh.coordinates[node].tolist()), _text(number, axes))
 
     def change(values: np.ndarray) -> Change:

@@ -73,8 +73,8 @@ class Part:
     @property
     def unknowns(self) -> tuple[Unknown, ...]:
         """Its parameters and how large they may be."""
-        found, link = self.ranges or self.law.unknowns(self.place.scale), self.place.scale.link
-        if self.variant not in self.law.linked or not link:
+        found = self.ranges or self.law.unknowns(self.place.scale)
+        if self.variant not in self.law.linked or not (link := self.place.scale.link):
             return found
         return (replace(found[0], lower=min(found[0].lower, _TAKEN * link), upper=min(found[0].upper, link)), *found[1:])
 
