@@ -63,8 +63,8 @@ def carrying(ranking: Ranking, first: Fit) -> Shared | None:
     none, least = ranking.baseline.misfit, CARRIES * (ranking.baseline.misfit - first.misfit)
     enough = [one for one in ranking.fits if len(one.recipes) == 1 and none - one.misfit > least]
     for i in steady(first):
-        ways = set(first.recipes[i].ways)
-        if any(ways & set(one.recipes[0].ways) or _matched([own[i]], _mechanisms(one), reach) for one in enough):
+        dofs = set(first.recipes[i].dofs)
+        if any(dofs & set(one.recipes[0].dofs) or _matched([own[i]], _mechanisms(one), reach) for one in enough):
             return _summed((i,), own, every, reach)
     return None
 
@@ -85,7 +85,7 @@ def _among(one: Fit, other: Fit) -> bool:
         return False
     pairs = zip(one.recipes, other.recipes, _mechanisms(one), _mechanisms(other), strict=True)
     return all(
-        a[0] == b[0] and ((own.ways and set(own.ways) <= set(its.ways)) or _whole(own, a[2], b[2]))
+        a[0] == b[0] and ((own.dofs and set(own.dofs) <= set(its.dofs)) or _whole(own, a[2], b[2]))
         for own, its, a, b in pairs
     )
 

@@ -24,7 +24,6 @@ from mouse_cli.report.sections._diagnosis_wording import (
 
 _EVEN = 0.5  # probability of no mechanism up to which one is called likely
 _SURE = 0.95  # probability of what acts beside a name, from which on its place alone is open
-_AT_FAULT = {True: "The test is at fault, not the model:", False: "The test is at fault:"}  # by whether it alone may be
 
 
 def sentences(found: Diagnosis) -> tuple[str, ...]:
@@ -77,7 +76,7 @@ def _named(found: Diagnosis) -> tuple[str, ...]:
     best, members = found.best, inside(found)
     if not found.placed:
         return tuple(filter(None, (_panelled(found), _separating(found))))
-    begin = _AT_FAULT[_alone(found)] if faulty(best) else "The model lacks"
+    begin = f"The test is at fault{', not the model' * _alone(found)}:" if faulty(best) else "The model lacks"
     if not members:
         other = (
             f"It may act elsewhere{rivals_of_site(found.elsewhere).removeprefix('; or')}." if found.elsewhere else ""

@@ -52,7 +52,7 @@ def _recipe(name: str, own: int):
         own=own,
         unknowns=(SimpleNamespace(name=group),),
         parts=tuple(parts),
-        ways=tuple(parts),
+        dofs=tuple(parts),
         values=lambda c: c,
         group=lambda c: group,
         site=lambda values: site,

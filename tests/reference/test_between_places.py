@@ -14,8 +14,10 @@ from mouse_cli.diagnosis.localise.force import scores
 from mouse_cli.diagnosis.localise.ties import ties
 from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.diagnosis.search.starts import leading
+from mouse_cli.diagnosis.sites import pairs as looked
+from mouse_cli.diagnosis.sites.ends import ends
 from mouse_cli.diagnosis.sites.knees import knees
-from mouse_cli.diagnosis.sites.pairs import MOST, ends, pairs
+from mouse_cli.diagnosis.sites.pairs import MOST, pairs
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
 from mouse_cli.model.arrays import dense
@@ -299,12 +301,8 @@ def test_a_beam_has_no_braces():
     assert not len(pairs(model(TIP % 1.0)))
 
 
-@pytest.mark.parametrize("pieces", [1, 3])
-def test_near_pairs_are_more_probable_beforehand(pieces):
-    """All together one; each by the inverse of how many are no more members apart: uniform in the logarithm of that number.
-
-    Six columns, bays of 3 and 8 m, two storeys: panels are two members across, whatever their bay and however fine the mesh.
-    """
+def bays(pieces: int) -> str:
+    """Six columns, bays of 3 and 8 m, two storeys; so many elements a member."""
     xyz = np.array([[x, 0.0, z] for z in (0.0, 3.0, 6.0) for x in (0.0, 3.0, 11.0)])
     members = [(i, i + 3) for i in range(6)] + [(3, 4), (4, 5), (6, 7), (7, 8)]
     nodes, elements = list(xyz.tolist()), []
@@ -316,7 +314,7 @@ def test_near_pairs_are_more_probable_beforehand(pieces):
     bar = "E: 2.1e+11, nu: 0.3, density: 7850, A: 0.01, Iy: 1.0e-5, Iz: 1.0e-5, J: 1.0e-5"
     listed = "\n".join(f"      - {{id: {n}, type: beam, nodes: {own}, {bar}}}" for n, own in enumerate(elements, 1))
     named = ", ".join(f"{n}: {at}" for n, at in enumerate(nodes, 1))
-    text = f"""mouse: 1
+    return f"""mouse: 1
 model:
   structure:
     nodes: {{{named}}}
@@ -327,12 +325,31 @@ model:
 test:
   modes: {{number: [1], frequency: [1], frequency_sd: 1 %}}
 """
-    chosen = pairs(model(text))
+
+
+@pytest.mark.parametrize(("limit", "value"), [("_LOOKED", 36), ("_ENDS", 9)])
+def test_knee_braces_push_no_other_pair_out(monkeypatch, limit, value):
+    """They are closer than all others: each kind has its own limit, and of too many nodes there are none."""
+    usual = pairs(model(bays(3)))
+    monkeypatch.setattr(looked, limit, value)
+    few, nodes = pairs(model(bays(3))), 9
+    own = lambda found: [key for key in found.keys[:, :2].tolist() if max(key) < nodes]
+    assert own(few) == own(usual) and len(own(usual)) == 18  # of 36 pairs of nine ends
+    assert bool(len(few) - len(own(few))) == (limit == "_LOOKED")
+
+
+@pytest.mark.parametrize("pieces", [1, 3])
+def test_near_pairs_are_more_probable_beforehand(pieces):
+    """All together one; each by the inverse of how many are no more members apart: uniform in the logarithm of that number.
+
+    Six columns, bays of 3 and 8 m, two storeys: panels are two members across, whatever their bay and however fine the mesh.
+    """
+    chosen = pairs(model(bays(pieces)))
     keys = [tuple(sorted(key[:2])) for key in (chosen.keys + 1).tolist()]
     p = dict(zip(keys, np.exp(chosen.log_prior).tolist(), strict=True))
     panel = {key: p.pop(key) for key in [(1, 5), (2, 4), (2, 6), (3, 5), (4, 8), (5, 7), (5, 9), (6, 8)]}
     wide = {key: p.pop(key) for key in [(1, 9), (3, 7)]}
-    knees = {key: p.pop(key) for key in [each for each in p if max(each) > len(xyz)]}
+    knees = {key: p.pop(key) for key in [each for each in p if max(each) > 9]}
     assert set(p) == {(1, 8), (2, 7), (2, 9), (3, 8), (1, 6), (3, 4), (4, 9), (6, 7)}
     first = panel[1, 5]
     share = 0.25 if pieces > 1 else 0.0

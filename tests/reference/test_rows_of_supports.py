@@ -69,9 +69,9 @@ def test_a_foot_that_sinks_is_flexible_along_no_other_axis(tmp_path):
     assert size.value == pytest.approx(SINKING, abs=3 * size.sd)
 
 
-def test_fewer_ways_are_tried_one_step_at_a_time():
+def test_fewer_directions_are_tried_one_step_at_a_time():
     """One direction less, or one foot less in all of its directions; of feet that have no such recipe, none."""
-    of = lambda *ways: SimpleNamespace(ways=ways)
+    of = lambda *dofs: SimpleNamespace(dofs=dofs)
     one = of("1TZ", "1TX", "1TY")
     others = [of("1TZ"), of("1TZ", "1TY"), of("1TX", "1TY"), of("2TZ"), of("1TZ", "2TZ"), of()]
     assert _within(one, others) == others[1:3]

@@ -132,7 +132,7 @@ def _answer(
     )
     unseen = tuple(read_problem(deck) for deck in named.unseen)
     if output is not None:
-        for problem in (*problems, *unseen):
+        for problem in problems:
             check_folder(problem, output if arranged else os.path.dirname(output))
     warn(each for problem in (*problems, *unseen) for each in problem.warnings)
     choices = choice.of(problems[0])

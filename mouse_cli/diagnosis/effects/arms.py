@@ -10,7 +10,7 @@ from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import span
 from mouse_cli.diagnosis.sites.attached import Attached, attached
-from mouse_cli.diagnosis.sites.pairs import ends, laden
+from mouse_cli.diagnosis.sites.ends import ends, laden
 from mouse_cli.diagnosis.sites.points import wanted
 from mouse_cli.model.mesh import RigidLink
 

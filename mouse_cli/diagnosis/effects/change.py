@@ -140,7 +140,7 @@ class Recipe:
     limit(values): group that it cannot be told from at such values, the end of their range; empty: none, its candidate's own.
     jumps: coordinates, in order, at which the matrices jump, by number of the unknown; there the piece after it begins.
     parts: names of several things, each with as many of the unknowns in turn, of which there are recipes with fewer; empty: none.
-    ways: names of the ways in which these give, one an unknown, of which there are recipes with fewer; empty: none.
+    dofs: labels of the degrees of freedom that it acts in, one an unknown, of which there are recipes with fewer; empty: none.
     title(values): how it is called at such values; empty: as its candidate is.
     linear: number of an unknown to which all that it adds is proportional; None: there is none.
     home: the model that it was made for. grows: how K and M that it adds grow with each parameter of the deck (p,), over what they
@@ -163,7 +163,7 @@ class Recipe:
     jumps: dict[int, np.ndarray] = field(default_factory=dict, repr=False)
     starts: tuple[np.ndarray, ...] = ()
     parts: tuple[str, ...] = ()
-    ways: tuple[str, ...] = ()
+    dofs: tuple[str, ...] = ()
     linear: int | None = None
     home: Any = field(default=None, repr=False, compare=False)
     grows: tuple[np.ndarray, np.ndarray] | None = field(default=None, repr=False, compare=False)

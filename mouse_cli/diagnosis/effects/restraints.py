@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, product, steps
-from mouse_cli.diagnosis.effects.support_sets import sprung, stiffness_name, support_sets, support_site, ways
+from mouse_cli.diagnosis.effects.support_sets import dofs, sprung, stiffness_name, support_sets, support_site
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import lowest
 from mouse_cli.diagnosis.mechanisms import Candidate
@@ -85,9 +85,9 @@ def _recipe(model: Reduced, candidate: Candidate, found: Turns, sets: list[list[
     site = support_site(model.problem, [found.free[i] for i in which])
     change = lambda values: Change(K=rows.T @ np.linalg.solve(np.diag(1 / values[number]) + R, rows))
     extend = lambda problem, values: sprung(problem, model.problem, turned, values, "N m/rad", released=False)
-    own = ways(model.problem, turned)
+    own = dofs(model.problem, turned)
     grid = product(*(steps(each, 6 if len(sets) == 1 else 4) for each in k))
-    return Recipe(candidate, tuple(k), change, grid, lambda values: site, log_prior=share, extend=extend, ways=own)
+    return Recipe(candidate, tuple(k), change, grid, lambda values: site, log_prior=share, extend=extend, dofs=own)
 
 
 def _range(model: Reduced, found: Turns, own: list[int]) -> tuple[float, float]:

@@ -70,7 +70,7 @@ def support_site(problem: Problem, held: Sequence[Held], alike: bool = True) -> 
     return Site("node", ids, position, f"the support of node {ids[0]}, {direction}")
 
 
-def ways(problem: Problem, sets: list[list[Held]]) -> tuple[str, ...]:
+def dofs(problem: Problem, sets: list[list[Held]]) -> tuple[str, ...]:
     """Names of supports, one a set; empty where some are alike."""
     single = all(len(held) == 1 for held in sets)
     return tuple(f"{problem.mesh.node_ids[node]}{DIRECTIONS[d]}" for held in sets for node, d in held) if single else ()

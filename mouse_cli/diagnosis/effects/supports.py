@@ -20,11 +20,11 @@ from mouse_cli.diagnosis.effects.released import (
 )
 from mouse_cli.diagnosis.effects.support_sets import (
     by_direction,
+    dofs,
     sprung,
     stiffness_name,
     support_sets,
     support_site,
-    ways,
 )
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
@@ -163,7 +163,7 @@ def _recipe(
         extend=extend,
         carried=moved.carried,
         parts=_parts(model, found, which) if len(which) == len(sets) else (),
-        ways=ways(model.problem, held),
+        dofs=dofs(model.problem, held),
     )
 
 

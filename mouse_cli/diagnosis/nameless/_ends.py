@@ -11,7 +11,8 @@ from mouse_cli.diagnosis.nameless._groups import places
 from mouse_cli.diagnosis.nameless._motions import translations
 from mouse_cli.diagnosis.sites.bars import Bars
 from mouse_cli.diagnosis.sites.channels import coupled
-from mouse_cli.diagnosis.sites.pairs import joined, pairs
+from mouse_cli.diagnosis.sites.ends import joined
+from mouse_cli.diagnosis.sites.pairs import pairs
 from mouse_cli.diagnosis.sites.points import named_dof
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.geometry import DIRECTIONS

@@ -1,4 +1,4 @@
-"""Mechanisms without what they do not need: ways in which they give, and sizes beyond those of a plainer mechanism."""
+"""Mechanisms without what they do not need: directions in which they give, and sizes beyond those of a plainer mechanism."""
 
 from collections.abc import Iterator
 
@@ -11,22 +11,22 @@ from mouse_cli.diagnosis.search.study import Study
 
 
 def pared(one: Fit, study: Study) -> Fit:
-    """The fit without such ways as gain less than MATERIAL: a foot that is hardly flexible is none of those that are, nor is one
-    that gives along one axis flexible along others.
+    """The fit without such directions as gain less than MATERIAL: a foot that is hardly flexible is none of those that are, nor is
+    one that gives along one axis flexible along others.
     """
-    if not any(len(recipe.ways) > 1 for recipe in one.recipes):
+    if not any(len(recipe.dofs) > 1 for recipe in one.recipes):
         return one
     best = max(_fewer(one, study.about(one)), key=lambda each: each.log_evidence, default=None)
     return one if best is None or best.log_evidence < one.log_evidence - MATERIAL else pared(best, study)
 
 
 def _fewer(one: Fit, there: Study) -> Iterator[Fit]:
-    """Fits of the same with as few ways less as there are recipes for."""
+    """Fits of the same with as few degrees of freedom less as there are recipes for."""
     own, k, base = there.own(one.recipes), one.model.k, there.model.judged_by(one.data)
     for j, recipe in enumerate(own):
         first = one.model.own[j].start
-        for fewer in _within(recipe, there.recipes(recipe.candidate.key) if len(recipe.ways) > 1 else []):
-            left_out = [first + i for i, way in enumerate(recipe.ways) if way not in fewer.ways]
+        for fewer in _within(recipe, there.recipes(recipe.candidate.key) if len(recipe.dofs) > 1 else []):
+            left_out = [first + i for i, dof in enumerate(recipe.dofs) if dof not in fewer.dofs]
             model = there.kind(base, (*own[:j], fewer, *own[j + 1 :]))
             again = fit(model, np.delete(one.c, left_out), one.point.x[:k])
             if again is not None:
@@ -34,10 +34,10 @@ def _fewer(one: Fit, there: Study) -> Iterator[Fit]:
 
 
 def _within(recipe: Recipe, others: list[Recipe]) -> list[Recipe]:
-    """Those of `others` that have some of the ways of a recipe in its order, and that no other of them has more of."""
-    some = [each for each in others if each.ways and each.ways == tuple(way for way in recipe.ways if way in each.ways)]
-    less = [each for each in some if len(each.ways) < len(recipe.ways)]
-    return [each for each in less if not any(set(each.ways) < set(other.ways) for other in less)]
+    """Those of `others` that have some degrees of freedom of a recipe, in its order, and that no other of them has more of."""
+    some = [each for each in others if each.dofs and each.dofs == tuple(dof for dof in recipe.dofs if dof in each.dofs)]
+    less = [each for each in some if len(each.dofs) < len(recipe.dofs)]
+    return [each for each in less if not any(set(each.dofs) < set(other.dofs) for other in less)]
 
 
 def plainest(fits: list[Fit]) -> list[Fit]:

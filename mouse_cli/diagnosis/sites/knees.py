@@ -5,11 +5,11 @@ from itertools import combinations
 
 import numpy as np
 
+from mouse_cli.diagnosis.sites.ends import STRAIGHT
 from mouse_cli.model.mesh import Mesh
 
 _HALF = 0.5  # of a member, as far as a knee brace reaches along it
 _LEAN = 3.0  # ratio of its legs at most: what leans further is hardly a brace
-_STRAIGHT = 0.999  # cosine from which on two members are in one line
 
 Arm = tuple[np.ndarray, list[tuple[int, float]]]  # direction of a member from its corner; nodes within it, and how far they are
 
@@ -24,7 +24,7 @@ def knees(mesh: Mesh, ends: np.ndarray) -> set[tuple[int, int]]:
     for corner in sorted(stops & set(beside)):
         arms = [arm for first in beside[corner] if (arm := _arm(mesh, beside, stops, corner, first))[1]]
         for one, other in combinations(arms, 2):
-            if abs(float(one[0] @ other[0])) < _STRAIGHT:
+            if abs(float(one[0] @ other[0])) < STRAIGHT:
                 found.update(_between(one, other))
     return found
 

@@ -1,6 +1,6 @@
 """Pairs of places that nothing joins yet: where a brace, a cable or a strut may act, and by which motion."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -8,6 +8,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import lowest
+from mouse_cli.diagnosis.sites.ends import ends, joined, laden
 from mouse_cli.diagnosis.sites.knees import knees
 from mouse_cli.diagnosis.sites.left_out import between
 from mouse_cli.model.arrays import dense
@@ -21,7 +22,6 @@ _KNEES = 0.25  # share of the prior of pairs that knee braces have
 _STILL = 0.02  # share of the largest elongation in a measured mode below which a pair does not take part
 _SPRINGS = 60  # degrees of freedom or nodes up to which a model of springs is looked at
 _ENDS, _LOOKED = 600, 3000  # ends of members, and pairs of them, the closest first, that are looked at
-_STRAIGHT = 0.999  # cosine from which on one member continues another
 _NOTHING = 1e-9  # of a member, for a piece of one that ends nowhere
 _SIGHT = 1e-3  # of the distance: how near to the line a third node is in the way
 _EACH = 256  # pairs worked on at once
@@ -204,28 +204,34 @@ def _between_ends(model: Reduced) -> tuple[np.ndarray, np.ndarray]:
         return _none(model)
     cut = knees(mesh, ends(mesh))
     found = np.union1d(own, np.array(sorted({node for pair in cut for node in pair}), int))
+    if len(found) > _ENDS:
+        cut, found = set(), own
     u = np.array([model.node(int(i))[:3] for i in found])
     xyz = mesh.coordinates[found]
     if np.linalg.matrix_rank(xyz - xyz[0], tol=1e-9 * _size(mesh)) < 2:
         return _none(model) if model.bars is not None or len(found) > _SPRINGS else _in_a_row(u, found, together)
-    one, other = _candidates(found, own, cut)
-    distance = np.linalg.norm(xyz[other] - xyz[one], axis=1)
-    order = np.argsort(distance, kind="stable")
-    order = order[distance[order] > 1e-6 * _size(mesh)][:_LOOKED]
-    order = np.array([i for i in order if (int(found[one[i]]), int(found[other[i]])) not in together], int)
-    order = np.sort(order[_in_sight(mesh, found[one[order]], found[other[order]])])
-    one, other, distance = one[order], other[order], distance[order]
-    axis = (xyz[other] - xyz[one]) / distance[:, None]
+    one, other = np.hstack([_nearest(mesh, found, *part) for part in _candidates(found, own, cut)])
+    bare = [pair not in together for pair in zip(found[one].tolist(), found[other].tolist(), strict=True)]
+    one, other = one[bare], other[bare]
+    seen = _in_sight(mesh, found[one], found[other])
+    one, other = one[seen], other[seen]
+    axis = (xyz[other] - xyz[one]) / np.linalg.norm(xyz[other] - xyz[one], axis=1)[:, None]
     rows = np.einsum("cd,cdr->cr", axis, u[other] - u[one])
     return np.stack([found[one], found[other], np.full(len(one), ALONG)], axis=1), rows
 
 
-def _candidates(found: np.ndarray, own: np.ndarray, cut: set[tuple[int, int]]) -> tuple[np.ndarray, np.ndarray]:
-    """Indices among the nodes `found` of all pairs of `own`, and of those that are `cut`."""
-    one, other = np.triu_indices(len(own), 1)
-    whole = np.searchsorted(found, own)
-    more = np.searchsorted(found, np.array(sorted(cut - set(combinations(own.tolist(), 2))), int).reshape(-1, 2))
-    return np.concatenate([whole[one], more[:, 0]]), np.concatenate([whole[other], more[:, 1]])
+def _candidates(found: np.ndarray, own: np.ndarray, cut: set[tuple[int, int]]) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """Indices among the nodes `found`: all pairs of `own`, and those that are `cut`, which push none of these out."""
+    yield tuple(np.searchsorted(found, own[at]) for at in np.triu_indices(len(own), 1))
+    more = np.array(sorted(cut - set(combinations(own.tolist(), 2))), int).reshape(-1, 2)
+    yield tuple(np.searchsorted(found, more.T))
+
+
+def _nearest(mesh: Mesh, found: np.ndarray, one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Those of the pairs of nodes, (2, c), that are apart, the closest."""
+    distance = np.linalg.norm(mesh.coordinates[found[other]] - mesh.coordinates[found[one]], axis=1)
+    order = np.argsort(distance, kind="stable")
+    return np.array([one, other])[:, np.sort(order[distance[order] > 1e-6 * _size(mesh)][:_LOOKED])]
 
 
 def _in_a_row(u: np.ndarray, nodes: np.ndarray, joined: set) -> tuple[np.ndarray, np.ndarray]:
@@ -235,45 +241,6 @@ def _in_a_row(u: np.ndarray, nodes: np.ndarray, joined: set) -> tuple[np.ndarray
     at = np.array([(i, j, d) for d in range(3) for i, j in own], int).reshape(-1, 3)
     keys = np.column_stack([nodes[at[:, 0]], nodes[at[:, 1]], at[:, 2]])
     return keys, u[at[:, 1], at[:, 2]] - u[at[:, 0], at[:, 2]]
-
-
-def ends(mesh: Mesh) -> np.ndarray:
-    """Nodes (indices) of two-node elements at which not just one straight member passes: held or linked, it ends."""
-    arms: dict[int, list[np.ndarray]] = {}
-    for elements in mesh.elements:
-        if elements.nodes.shape[1] == 2:
-            along = mesh.coordinates[elements.nodes[:, 1]] - mesh.coordinates[elements.nodes[:, 0]]
-            bent = np.full(len(elements), elements.type != "beam")
-            along[bent] = 0.0  # only beams carry a load past a node
-            for (a, b), vector in zip(elements.nodes.tolist(), along, strict=True):
-                arms.setdefault(a, []).append(vector), arms.setdefault(b, []).append(-vector)
-    held = {
-        *mesh.standing[:, 0].tolist(),
-        *(node for link in mesh.links for node in (link.independent, link.dependent)),
-    }
-    return np.array(sorted(node for node, own in arms.items() if node in held or not _passes(own)), int)
-
-
-def laden(mesh: Mesh) -> np.ndarray:
-    """Nodes (indices) of point masses: floors of a tower, machines on a beam."""
-    return np.unique([node for each in mesh.elements if each.type == "mass" for node in each.nodes[:, 0]]).astype(int)
-
-
-def _passes(arms: list[np.ndarray]) -> bool:
-    """Whether two elements alone meet and continue one another."""
-    if len(arms) != 2:
-        return False
-    size = np.linalg.norm(arms[0]) * np.linalg.norm(arms[1])
-    return bool(size > 0 and arms[0] @ arms[1] < -_STRAIGHT * size)
-
-
-def joined(mesh: Mesh) -> set[tuple[int, int]]:
-    """Nodes (i < j) that an element or a rigid link joins."""
-    found = {tuple(sorted((link.independent, link.dependent))) for link in mesh.links}
-    for elements in mesh.elements:
-        if elements.nodes.shape[1] == 2:
-            found |= {tuple(pair) for pair in np.sort(elements.nodes, axis=1).tolist()}
-    return found
 
 
 def _size(mesh: Mesh) -> float:

@@ -16,6 +16,7 @@ from mouse_cli.model.problem import Problem
 from mouse_cli.model.recording import MOTIONS, Channel, Recording
 from mouse_cli.updating.recordings.adequacy import INADEQUATE
 from mouse_cli.updating.recordings.free_force import Spectrum
+from mouse_cli.updating.recordings.noise import predicted
 from mouse_cli.updating.recordings.records import in_order, records, reduced
 from mouse_cli.updating.recordings.regression import Regression
 from mouse_cli.updating.recordings.series import Series
@@ -87,9 +88,8 @@ def _check_scales(own: Study, look: Series, at: Regression, before: float) -> No
 
 def _share(at: Regression, j: int) -> float:
     """By how much output j is larger than the model says, its nuisances free."""
-    spectrum, left = at.spectrum, at.left[at.kept, j]
-    told = spectrum.whitened(spectrum.read * spectrum.window[:, None])[at.kept, j] - left
-    return float(told @ left) / max(float(told @ told), 1e-300)
+    left, model = at.left[at.kept, j], predicted(at)[:, j]
+    return float(model @ left) / max(float(model @ model), 1e-300)
 
 
 def _record(own: Study, look: Series) -> tuple[Recording, np.ndarray]:

@@ -80,11 +80,16 @@ def _scaled(at: Regression) -> float:
     """Share of the power of what is left that is coherent with what the model says of the same channel: a channel that is scaled
     or filtered, whose resonances are narrower than the lines of any coherence with the force.
     """
-    spectrum, left = at.spectrum, at.left[at.kept]
-    told = spectrum.whitened(spectrum.read * spectrum.window[:, None])[at.kept] - left
+    left, model = at.left[at.kept], predicted(at)
     power = (left**2).sum(axis=0)
-    shares = [coherent(told[:, [j]], left[:, [j]]) if told[:, j].any() and power[j] else 0.0 for j in range(left.shape[1])]
+    shares = [coherent(model[:, [j]], left[:, [j]]) if model[:, j].any() and power[j] else 0.0 for j in range(left.shape[1])]
     return float(power @ shares) / max(float(power.sum()), 1e-300)
+
+
+def predicted(at: Regression) -> np.ndarray:
+    """What the model with its nuisances makes of the outputs (kept samples, s), in the units of `at.left`."""
+    spectrum = at.spectrum
+    return (spectrum.whitened(spectrum.read * spectrum.window[:, None]) - at.left)[at.kept]
 
 
 def whitening(spectrum: Spectrum, left: np.ndarray) -> tuple[np.ndarray, float, float]:
