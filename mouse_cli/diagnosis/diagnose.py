@@ -10,6 +10,7 @@ from mouse_cli._errors import NumericalError
 from mouse_cli.diagnosis.begun import again, begun
 from mouse_cli.diagnosis.cautions import cautions, misstated
 from mouse_cli.diagnosis.companions import loose
+from mouse_cli.diagnosis.explained import acting, certain, explanations
 from mouse_cli.diagnosis.extend.deck import extended
 from mouse_cli.diagnosis.gates import GATE
 from mouse_cli.diagnosis.likelihoods.measured import Measured
@@ -27,7 +28,7 @@ from mouse_cli.diagnosis.search.rank import Ranking, group, rank
 from mouse_cli.diagnosis.search.spread import with_forms
 from mouse_cli.diagnosis.validate.informed import informed
 from mouse_cli.diagnosis.validate.next_measurement import proposals
-from mouse_cli.diagnosis.verdict import Verdict, acting, certain, explanations, judge, member, rest
+from mouse_cli.diagnosis.verdict import Verdict, judge, member, rest
 from mouse_cli.dynamics.solver import EigenSolver
 from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, RIVAL, UNKNOWN, Choices, Diagnosis, Proposal
 from mouse_cli.model.modal_test import restricted

@@ -19,17 +19,10 @@ from mouse_cli.model.diagnosis import (
     ONE_OF,
     RIVAL,
     UNKNOWN,
-    Cause,
-    Certain,
-    Explanation,
     HeldOut,
     Rest,
-    Site,
-    Size,
 )
 from mouse_cli.model.groups import leading
-from mouse_cli.model.site import as_read
-from mouse_cli.model.units import Units
 from mouse_cli.updating.chi_square import upper_tail
 
 _BELIEVED = 0.5  # share of the stated accuracies in the leading explanation below which the test itself is the finding
@@ -46,9 +39,9 @@ class Verdict:
     """kind of answer; best: the fit that leads, with a mechanism; proof: how it predicts what was held out.
 
     refuted: groups that held-out data speak against. field: the leading rival without a name where the answer is UNKNOWN, with
-    field_proof, how it predicts what was held out. reasons: what forbids a name that evidence alone would give, in sentences.
-    certain: what of `best` is named, where its companions are open. placed: whether its site is as sure as a name; what is named
-    all the same is so within `panelled`.
+    field_proof, how it predicts what was held out; where it is ONE_OF, that rival if it is one of these. reasons: what forbids a
+    name that evidence alone would give, in sentences. certain: what of `best` is named, where its companions are open. placed:
+    whether its site is as sure as a name; what is named all the same is so within `panelled`.
     """
 
     kind: str
@@ -75,9 +68,16 @@ class Verdict:
 def judge(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:
     """What may be said of all fits; one of several predicts as all hypotheses together do."""
     found = _judged(ranking, rejected, model)
-    if found.kind != ONE_OF or found.proof is None:
+    if found.kind != ONE_OF:
         return found
-    return replace(found, proof=averaged(model, ranking) or found.proof)
+    proof = found.proof and (averaged(model, ranking) or found.proof)
+    return replace(found, proof=proof, field=_rival_field(ranking))
+
+
+def _rival_field(ranking: Ranking) -> Fit | None:
+    """The most probable fit of physics without a name, where that is a rival of what has one; None: it is none."""
+    fields = [(p, one) for p, one in zip(ranking.probabilities.tolist(), ranking.fits, strict=True) if one.nameless and p > RIVAL]
+    return max(fields, key=lambda each: each[0])[1] if fields else None
 
 
 def _judged(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:
@@ -247,54 +247,3 @@ def _gain(proof: HeldOut | None) -> float:
     if proof is None or proof.revised is None or proof.kind != BY_DECK:
         return 0.0
     return proof.revised.log_predictive_density - proof.baseline.log_predictive_density
-
-
-def explanations(ranking: Ranking) -> tuple[Explanation, ...]:
-    """All fits in words and numbers."""
-    return tuple(explanation(ranking.fits[i], float(ranking.probabilities[i])) for i in ranking.named)
-
-
-def explanation(one: Fit, probability: float = 0.0) -> Explanation:
-    """A fit as the report gives it."""
-    causes = _causes(one)
-    theta = one.model.base.parameters(one.point.x[: one.model.k])
-    p = upper_tail(one.misfit, max(one.dof, 1))
-    return Explanation(causes, one.misfit, one.dof, p, one.log_evidence, theta, probability, _elsewhere(one))
-
-
-def _elsewhere(one: Fit) -> tuple[tuple[tuple[Site, ...], float], ...]:
-    """Other sites of a fit and their probabilities, where these matter: optima that read alike are one, and none is its own."""
-    found: dict[tuple, list] = {}
-    for other, share in one.elsewhere:
-        found.setdefault(as_read(other.sites), [other.sites, 0.0])[1] += share
-    found.pop(as_read(one.sites), None)
-    return tuple((sites, share) for sites, share in found.values() if share > RIVAL)
-
-
-def certain(one: Fit, found: Shared) -> Certain:
-    """What is certain of a fit, in words and numbers, in the order of `Explanation`."""
-    causes = _causes(one)
-    chosen = sorted((causes[i] for i in found.which), key=lambda cause: (cause.group, cause.physics))
-    return Certain(tuple(chosen), found.probability, found.members, found.companions)
-
-
-def _causes(one: Fit) -> tuple[Cause, ...]:
-    """The mechanisms of a fit, in its order."""
-    sd, units = np.sqrt(np.abs(np.diag(one.covariance)))[one.model.k :], one.model.base.problem.units
-    parts = zip(one.recipes, one.groups, one.model.own, strict=True)
-    return tuple(_cause(recipe, group, one.c[own], sd[own], units) for recipe, group, own in parts)
-
-
-def acting(one: Fit) -> str:
-    """Where the mechanisms of a fit act, in words."""
-    return " + ".join(site.text or f"{site.kind} {', '.join(map(str, site.ids))}" for site in one.sites)
-
-
-def _cause(recipe, group: str, c: np.ndarray, sd: np.ndarray, units: Units) -> Cause:
-    values = recipe.values(c)
-    sizes = tuple(
-        Size(u.name, units.of(u.unit), float(v), float(s * v if u.log else s), u.lower, u.upper)
-        for u, v, s in zip(recipe.unknowns, values, sd, strict=True)
-    )
-    candidate = recipe.candidate
-    return Cause(candidate.key, group, recipe.title(values) or candidate.title, recipe.site(values), sizes, recipe.law)

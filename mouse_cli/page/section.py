@@ -12,14 +12,14 @@ from mouse_cli.report.reading import Part
 class PageSection:
     """`build(document)` yields what the section shows, nothing when the document has nothing of it.
 
-    order: among all sections. folded: closed until it is asked for, as evidence is.
+    order: among all sections. folded: closed until it is asked for, as evidence is; of a document where that depends on it.
     """
 
     key: str
     order: int
     title: str
     build: Callable[[Part], Iterable[Markup]]
-    folded: bool = True
+    folded: bool | Callable[[Part], bool] = True
 
 
 def sections(document: Part) -> Iterator[tuple[PageSection, Markup]]:
@@ -29,5 +29,6 @@ def sections(document: Part) -> Iterator[tuple[PageSection, Markup]]:
         body = [piece for piece in section.build(document) if piece]
         if body:
             head = tag("h2", section.title, id=f"{section.key}-title")
-            inside = (tag("details", tag("summary", head), *body),) if section.folded else (head, *body)
+            folded = section.folded if isinstance(section.folded, bool) else section.folded(document)
+            inside = (tag("details", tag("summary", head), *body),) if folded else (head, *body)
             yield section, tag("section", *inside, id=section.key, aria_labelledby=f"{section.key}-title")

@@ -30,8 +30,8 @@ _SHOWN = 2.0  # sd from which on a value is listed by itself
 
 def field_sentences(field: Field, what: str = "What is missing") -> tuple[str, ...]:
     """What is missing, and that it has no name; what: the subject of the first sentence."""
-    besides = "" if field.beside is None else f" A second change is there with it. {_acts(field.beside)}."
-    lead = f"{what} has no name in the library. {_acts(field)}.{besides}"
+    besides = "" if field.beside is None else f" A second change is there with it. It {field_acts(field.beside)}."
+    lead = f"{what} has no name in the library. It {field_acts(field)}.{besides}"
     return (
         lead,
         " ".join(filter(None, (_over(field.log_evidence_over_named), held_words(field.held_out)))),
@@ -39,11 +39,11 @@ def field_sentences(field: Field, what: str = "What is missing") -> tuple[str, .
     )
 
 
-def _acts(field: Field) -> str:
-    """On what it acts, and where."""
+def field_acts(field: Field) -> str:
+    """On what it acts, and where, as the predicate of a sentence."""
     if field.property == LAW:
         return _law(field)
-    return _spring(field) if one_spring(field) else f"It {ACTS[field.property]}{_most(field)}"
+    return _spring(field) if one_spring(field) else f"{ACTS[field.property]}{_most(field)}"
 
 
 def _over(log_evidence: float) -> str:
@@ -111,14 +111,14 @@ def _spring(field: Field) -> str:
     """Where one spring ends."""
     sites = [place(each.site) for each in field.values]
     where = f"between {' and '.join(sites)}" if len(sites) > 1 else f"against the turn of {sites[0]}"
-    return f"It acts as one spring {where}, which no mechanism of the library is"
+    return f"acts as one spring {where}, which no mechanism of the library is"
 
 
 def _law(field: Field) -> str:
     """Where a law acts, and its values at the frequencies of the modes that tell."""
     where = field.values[0].site.text.rpartition(", mode ")[0]
     each = [f"{v.value:.3g} (sd {v.sd:.2g}) in mode {v.site.text.rpartition(', mode ')[2]}" for v in significant(field)]
-    return f"It acts at {where}, by a law that is in no library: {', '.join(each)}, {UNITS[LAW]}"
+    return f"acts at {where}, by a law that is in no library: {', '.join(each)}, {UNITS[LAW]}"
 
 
 def _most(field: Field) -> str:

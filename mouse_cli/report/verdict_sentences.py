@@ -3,7 +3,7 @@
 from mouse_cli.model.diagnosis import BY_DECK, NAMED, NOTHING, ONE_OF, RIVAL, UNPROVED, Diagnosis, Explanation, Rest
 from mouse_cli.model.groups import enumerated
 from mouse_cli.model.record_diagnosis import RecordDiagnosis
-from mouse_cli.report.field_words import field_sentences
+from mouse_cli.report.field_words import field_acts, field_sentences
 from mouse_cli.report.sections._diagnosis_wording import (
     called,
     companion,
@@ -65,10 +65,13 @@ def _possible(found: Diagnosis) -> str:
     if p <= none:
         return ""
     first = next((one for one in found.explanations if one.causes and one.group == group), None)
-    begin = "Something may be missing all the same"
+    begin, nothing = "Something may be missing all the same", f"that nothing is: {probable(none)}"
+    first = next((one for one in found.explanations if one.causes and one.group == group), None)
+    if first is None and found.nameless > none:
+        return f"{begin}, most likely a change without a name ({with_p(found.nameless)}; {nothing})."
     if first is None:
-        return f"{begin} (probability that nothing is: {probable(none)})."
-    return f"{begin}, most likely {grouped(found.explanations, first)} ({with_p(p)}; that nothing is: {probable(none)})."
+        return f"{begin} (probability {nothing})."
+    return f"{begin}, most likely {grouped(found.explanations, first)} ({with_p(p)}; {nothing})."
 
 
 def _named(found: Diagnosis) -> tuple[str, ...]:
@@ -163,7 +166,10 @@ def _common(found: Diagnosis) -> str:
 
 def _nameless(found: Diagnosis) -> tuple[str, ...]:
     """What has no name, where it is a rival."""
-    return (f"a change that has no name ({with_p(found.nameless)})",) if found.nameless > RIVAL else ()
+    if not found.nameless > RIVAL:
+        return ()
+    acts = "" if found.field is None else f" that {field_acts(found.field)}"
+    return (f"a change without a name{acts} ({with_p(found.nameless)})",)
 
 
 def _separating(found: Diagnosis) -> str:

@@ -186,7 +186,7 @@ def test_likely_is_not_proved():
     open_ = replace(found, groups=(("force", 0.64), ("ground-spring", 0.2), ("none", 0.16)))
     assert sentences(open_)[0] == (
         "It is likely, not proved, that something is missing (probability that nothing is: 0.16), and the test does not settle "
-        "what: one of {a spring to the ground; a change that has no name (probability 0.64)}."
+        "what: one of {a spring to the ground; a change without a name (probability 0.64)}."
     )
     several = words(DIAGNOSES["one-of"]())
     assert "It is likely, not proved, that something is missing (probability that nothing is: 0.10)" in several

@@ -7,9 +7,9 @@ import pytest
 from scipy.linalg import block_diag, eigh
 
 from mouse_cli.diagnosis import diagnose
+from mouse_cli.diagnosis.explained import _elsewhere
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.mechanisms import registry
-from mouse_cli.diagnosis.verdict import _elsewhere
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
 from mouse_cli.model.diagnosis import NAMED, Choices, Site

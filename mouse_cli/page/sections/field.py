@@ -100,4 +100,9 @@ def _along(every: list[Part]) -> tuple[np.ndarray, str]:
     return np.arange(1.0, len(every) + 1), "number of the site"
 
 
-SECTION = PageSection("field", 15, "Physics without a name", field, folded=False)
+def _beside(document: Part) -> bool:
+    """Whether it is one of several, which are evidence, and not the answer."""
+    return document.part("verdict").text("kind") == "one-of"
+
+
+SECTION = PageSection("field", 15, "Physics without a name", field, _beside)

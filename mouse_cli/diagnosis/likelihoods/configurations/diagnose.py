@@ -6,6 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
+from mouse_cli.diagnosis.explained import explanation, explanations
 from mouse_cli.diagnosis.extend.deck import in_its_units
 from mouse_cli.diagnosis.extend.halves import halved
 from mouse_cli.diagnosis.likelihoods.configurations.checked import checked
@@ -26,8 +27,6 @@ from mouse_cli.diagnosis.verdict import (
     SURE,
     doubtful,
     explains,
-    explanation,
-    explanations,
     far_parameters,
     leader,
     sure,

@@ -72,6 +72,9 @@ def _where(found: Diagnosis) -> Iterator[Block]:
         columns = heads("<if it is | <then at")
         at = lambda one: whereabouts(one, units, elsewhere(found.explanations, one))
         yield Table(columns, tuple((one.title, at(one)) for one in leaders(found)))
+        if found.field is not None:
+            yield Text("If it is a change without a name, here:")
+            yield from field_blocks(found.field, units)
     elif found.field is not None:
         yield from field_blocks(found.field, units)
         yield from map(Text, filter(None, [shapes.strip()]))
