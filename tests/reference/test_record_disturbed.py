@@ -13,18 +13,23 @@ from mouse_cli.formats import read_deck
 from mouse_cli.updating.recordings.disturbed import disturbed
 from mouse_cli.updating.recordings.records import records
 from mouse_cli.updating.recordings.study import fitted, study
+from mouse_cli.updating.recordings.tone import tone
 
 RATE, FINER, SECONDS = 512, 8, 12.0
+MOTOR = 11.3  # Hz
 
 
-def rig(folder, hum: float, drift: float, stiffer: float = 1.01) -> str:
-    """A deck whose record has a hum of 50 Hz and a slow drift, of so many times the rms of the channels."""
+def rig(folder, hum: float, drift: float, stiffer: float = 1.01, motor: float = 0.0) -> str:
+    """A deck whose record has a hum of 50 Hz and a slow drift, of so many times the rms of the channels; motor: N, of one on the
+    first mass at MOTOR Hz.
+    """
     rng, t = np.random.default_rng(9), np.arange(int(SECONDS * RATE * FINER)) / (RATE * FINER)
     hz = np.fft.rfftfreq(len(t), t[1])
     f = np.fft.irfft(np.where((hz > 2) & (hz < 60), np.exp(2j * np.pi * rng.uniform(size=len(hz))), 0), len(t))
     f *= 40 / f.std() * np.minimum(t / 0.2, 1)
     A = np.block([[np.zeros((2, 2)), np.eye(2)], [-stiffer * K, -1.2e-4 * K]])
-    x = lsim((A, np.eye(4)[:, 3:], np.eye(4)[:2], np.zeros((2, 1))), f, t)[1][::FINER]
+    forces = np.column_stack([motor * np.sin(2 * np.pi * MOTOR * t), f])
+    x = lsim((A, np.eye(4)[:, 2:], np.eye(4)[:2], np.zeros((2, 2))), forces, t)[1][::FINER]
     t, f = t[::FINER, None], f[::FINER]
     x = x + x.std(axis=0) * (0.005 * rng.standard_normal(x.shape) + hum * np.sin(2 * np.pi * 50 * t + np.arange(2)))
     x = 1e3 * (x + x.std(axis=0) * drift * np.sin(2 * np.pi * t / 20))
@@ -60,3 +65,26 @@ def test_no_hum_is_blamed_for_what_the_structure_does(tmp_path, hum, stiffer):
     problem = read_deck(rig(tmp_path, hum, 0.0, stiffer))
     own = study(problem, records(problem))
     assert disturbed(own, fitted(own, None)) == ""
+
+
+def test_a_motor_that_runs_is_no_hidden_oscillator(tmp_path):
+    """Within a stretch its free state is any sinusoid: it was named with P > 0.999, and predicted what was held out."""
+    deck = rig(tmp_path, 0.0, 0.0, motor=6.0)
+    found = json.loads(CliRunner().invoke(cli, ["diagnose", deck, "--json", "-q"]).stdout)
+    (said,) = [one for one in found["cautions"] if "steady tone" in one]
+    assert found["verdict"]["physics"] is None and "mains: 11.3 " in said
+    text = (tmp_path / "deck.yaml").read_text()
+    (tmp_path / "deck.yaml").write_text(text.replace("      inputs:", "      mains: 11.3\n      inputs:"))
+    again = json.loads(CliRunner().invoke(cli, ["diagnose", deck, "--json", "-q"]).stdout)
+    assert again["verdict"]["kind"] == "nothing-missing"
+
+
+@pytest.mark.parametrize(("motor", "stiffer"), [(6.0, 1.01), (0.0, 1.6)], ids=["motor", "resonance"])
+def test_a_tone_is_steady_throughout(tmp_path, motor, stiffer):
+    """What a random force drives through a light resonance is of no one amplitude and phase over the record."""
+    problem = read_deck(rig(tmp_path, 0.0, 0.0, stiffer, motor))
+    own = study(problem, records(problem))
+    found = tone(own.spectrum, own.base, own.places)
+    assert (found is not None) == (motor > 0)
+    if found is not None:
+        assert found.hz == pytest.approx(MOTOR, abs=0.005) and found.share > 0.5

@@ -32,6 +32,7 @@ from mouse_cli.updating.recordings.noise import doubtful, noise
 from mouse_cli.updating.recordings.pushed import pushed
 from mouse_cli.updating.recordings.regression import Regression, Start, starts
 from mouse_cli.updating.recordings.study import Study, fitted
+from mouse_cli.updating.recordings.tone import tone
 from mouse_cli.updating.refusals import not_simulated
 
 _MORE = 12  # starts that are fitted where none of the first is adequate
@@ -83,6 +84,8 @@ def weighed(study: Study, notice: Notice, known: list[Law] | None = None, causes
         return Weighed(baseline, [], quiet, baseline)
     if said := disturbed(study, baseline):
         return Weighed(baseline, [], quiet, baseline if noisy else None, otherwise=said)
+    if not noisy and (steady := tone(study.spectrum, study.base, study.places)) is not None:
+        return Weighed(baseline, [], otherwise=steady.said())
     if not noisy and (when := changed(study)) is not None:
         return Weighed(baseline, [], otherwise=when.said())
     dropped: dict[str, str] = {}
