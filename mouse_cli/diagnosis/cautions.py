@@ -57,7 +57,7 @@ def cautions(ranking: Ranking, verdict: Verdict, location: Location | None) -> t
     """The sentences, each whole; none where nothing is missing."""
     if verdict.kind == NOTHING:
         return ()
-    doubted = *_repeated(ranking, verdict), *_errors(ranking), *_noise(ranking), *_narrow(ranking)
+    doubted = *_repeated(ranking, verdict), *_errors(ranking, verdict), *_noise(ranking), *_narrow(ranking)
     return (*verdict.reasons, *doubted, *_tied(ranking, verdict), *_refuted(verdict), *_elsewhere(verdict, location))
 
 
@@ -90,8 +90,9 @@ def _mixed(one: Fit, doubt: Doubt) -> str:
     )
 
 
-def _errors(ranking: Ranking) -> Iterator[str]:
+def _errors(ranking: Ranking, verdict: Verdict) -> Iterator[str]:
     """Errors of the test that explain the data, alone or beside a mechanism; where they need not be, as what may be wrong."""
+    begin = "Unless what is missing is in no library, the test" if verdict.kind == UNKNOWN else "The test"
     coarse, entry = _CERTAIN if misstated(ranking) else _POSSIBLE
     for doubt in _doubts(ranking) if ranking.noise_scale <= NOISY else ():
         if doubt.probability > RIVAL and (said := _mixed(ranking.baseline, doubt)):
@@ -101,7 +102,7 @@ def _errors(ranking: Ranking) -> Iterator[str]:
             number = ranking.baseline.data.test.number
             modes = enumerated([str(number[j]) for j in doubt.modes])
             said = _TOLD[doubt.key].format(size=100 * doubt.size, modes=modes)
-            yield f"The test {entry if doubt.modes else coarse} ({p}): {said}."
+            yield f"{begin} {entry if doubt.modes else coarse} ({p}): {said}."
 
 
 def _noise(ranking: Ranking) -> Iterator[str]:
@@ -110,6 +111,10 @@ def _noise(ranking: Ranking) -> Iterator[str]:
         best = min((one for one in ranking.fits if one.dof > 0), key=lambda one: one.misfit / one.dof)
         named = zip(("frequencies", "shapes"), scatter(best), strict=True)
         parts = " and ".join(f"{name} {factor:.2g} times" for name, factor in named if np.isfinite(factor))
+        left = sqrt(best.misfit / best.dof)
+        if left <= 1:
+            return
+        parts = parts or f"{left:.2g} times"
         yield (
             f"Even the best explanation leaves {parts} the scatter that the deck states. Unless the mechanism is outside the "
             "library, the test is less accurate by that factor: repeat a measurement to estimate its scatter."

@@ -1,11 +1,14 @@
 """What a diagnosis found: where model and test part, what physics would explain it, how much of it, and whether that is true."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
-import numpy as np
-
 from mouse_cli._notebook import Shown
+from mouse_cli.model.explanation import RIVAL as RIVAL
+from mouse_cli.model.explanation import Cause as Cause
+from mouse_cli.model.explanation import Explanation as Explanation
+from mouse_cli.model.explanation import Size as Size
+from mouse_cli.model.explanation import elsewhere as elsewhere
+from mouse_cli.model.explanation import members as members
 from mouse_cli.model.field import AXIAL as AXIAL
 from mouse_cli.model.field import BED as BED
 from mouse_cli.model.field import COMPLIANCE as COMPLIANCE
@@ -16,7 +19,7 @@ from mouse_cli.model.field import STIFFNESS as STIFFNESS
 from mouse_cli.model.field import Field as Field
 from mouse_cli.model.field import FieldValue as FieldValue
 from mouse_cli.model.frf_fit import Damping, FrfFit
-from mouse_cli.model.groups import counted, joined, leading, shares
+from mouse_cli.model.groups import leading
 from mouse_cli.model.localisation import EnergyMap as EnergyMap
 from mouse_cli.model.localisation import Law as Law
 from mouse_cli.model.localisation import Location as Location
@@ -34,111 +37,9 @@ from mouse_cli.model.result import ChiSquareTest, Result
 from mouse_cli.model.shared_place import SharedPlace, shared_place
 from mouse_cli.model.site import EVERYWHERE as EVERYWHERE
 from mouse_cli.model.site import Site as Site
-from mouse_cli.model.site import as_read
-from mouse_cli.model.units import Units
 
 NOTHING, NAMED, ONE_OF, UNKNOWN = "nothing-missing", "named", "one-of", "unknown"
 UNPROVED = 0.02  # probability that nothing is missing, from which on it is one of what may be
-RIVAL = 0.05  # probability of a group, or share of a place, from which on it is listed with the leading one
-
-
-@dataclass(frozen=True)
-class Size:
-    """One parameter of a cause: value and sd in `unit`, and the range (lower, upper) that was held possible."""
-
-    name: str
-    unit: str
-    value: float
-    sd: float
-    lower: float
-    upper: float
-
-
-@dataclass(frozen=True)
-class Cause:
-    """One piece of physics that the model does not have. physics: key of its candidate; group: of those hard to tell apart.
-
-    law: `structural` or `viscous` where FRFs show how its spring loses energy; empty: as the rest of the structure, or unknown.
-    """
-
-    physics: str
-    group: str
-    title: str
-    site: Site
-    sizes: tuple[Size, ...]
-    law: str = ""
-
-    def spelled(self, units: Units) -> "Cause":
-        """With the names of the deck's units, in which its values are; those of SI stay where the deck declares none."""
-        own = tuple(replace(size, unit=units.of(size.unit)) for size in self.sizes)
-        return replace(self, sizes=own) if units.declared else self
-
-
-@dataclass(frozen=True)
-class Explanation:
-    """No cause, one or more, fitted together with all parameters of the deck; causes in the order of `group`, then `physics`.
-
-    chi2 on dof: what stays of the data's misfit; p of it; log_evidence: ln of the probability of the data; probability: of this
-    explanation among all that were tried. theta (p,): values of the deck's own parameters. elsewhere: rival sites of the same
-    causes, and the share of each in this probability.
-    """
-
-    causes: tuple[Cause, ...]
-    chi2: float
-    dof: int
-    p: float
-    log_evidence: float
-    theta: np.ndarray
-    probability: float = 0.0
-    elsewhere: tuple[tuple[tuple[Site, ...], float], ...] = ()
-
-    def __post_init__(self) -> None:
-        order = sorted(range(len(self.causes)), key=lambda i: (self.causes[i].group, self.causes[i].physics))
-        sorts = lambda of: tuple(of[i] for i in order) if len(of) == len(order) else tuple(of)
-        object.__setattr__(self, "causes", sorts(self.causes))
-        object.__setattr__(self, "elsewhere", tuple((sorts(sites), share) for sites, share in self.elsewhere))
-
-    @property
-    def sites(self) -> tuple[Site, ...]:
-        """One a cause."""
-        return tuple(cause.site for cause in self.causes)
-
-    @property
-    def group(self) -> str:
-        """Groups of its causes, `none` without one; see `joined`."""
-        return joined([cause.group for cause in self.causes])
-
-    @property
-    def physics(self) -> str:
-        """Keys of its causes, `none` without one."""
-        return " + ".join(cause.physics for cause in self.causes) or "none"
-
-    @property
-    def title(self) -> str:
-        """Its causes in words."""
-        return counted([cause.title for cause in self.causes]) or "nothing"
-
-
-def members(explanations: Sequence[Explanation], group: str) -> tuple[tuple[str, float], ...]:
-    """Physics of the explanations of `group` and the probability of each within it, the largest first."""
-    own = [one for one in explanations if one.group == group]
-    total = sum(one.probability for one in own)
-    return shares([one.physics for one in own], [one.probability / total for one in own]) if total > 0 else ()
-
-
-def elsewhere(explanations: Sequence[Explanation], best: Explanation) -> tuple[tuple[tuple[Site, ...], float], ...]:
-    """Rival sites of the physics of `best` with more than RIVAL of its probability, the most probable first.
-
-    Those of one fit stand in its `elsewhere`, others in explanations of the same physics; sites that read alike are the same.
-    """
-    alike = [one for one in explanations if one.physics == best.physics]
-    total = sum(one.probability for one in alike)
-    found: dict[tuple, list] = {}
-    for one in alike if total > 0 else ():
-        for sites, share in (*one.elsewhere, (one.sites, 1 - sum(share for _, share in one.elsewhere))):
-            found.setdefault(as_read(sites), [sites, 0.0])[1] += share * one.probability / total
-    found.pop(as_read(best.sites), None)
-    return tuple(sorted(((s, p) for s, p in found.values() if p > RIVAL), key=lambda item: -item[1]))
 
 
 @dataclass(frozen=True)
@@ -273,6 +174,20 @@ class Diagnosis(Shown):
         return next((one for one in self.explanations if not one.causes), None)
 
     @property
+    def listed(self) -> tuple[Explanation, ...]:
+        """All that were tried, most probable first; where no probability is given, none first, then by their log evidence."""
+        if self.kind != UNKNOWN:
+            return self.explanations
+        return tuple(sorted(self.explanations, key=lambda one: (bool(one.causes), -one.log_evidence)))
+
+    @property
+    def nearest(self) -> Explanation | None:
+        """Of an answer without a name, the explanation with a cause that has most evidence; None: none has more than no cause."""
+        none, first = self.baseline, next((one for one in self.listed if one.causes), None)
+        gains = first is not None and (none is None or first.log_evidence > none.log_evidence)
+        return first if gains else None
+
+    @property
     def rivals(self) -> tuple[tuple[str, float], ...]:
         """Groups that hold more than RIVAL, `none` more than UNPROVED, the first first; never one alone of several groups."""
         least = (1 if self.nameless > RIVAL or not self.placed else 2) if self.kind == ONE_OF else 0
@@ -283,7 +198,7 @@ class Diagnosis(Shown):
     @property
     def nameless(self) -> float:
         """Probability of changes of the model that have no name."""
-        named = {one.group for one in self.explanations}
+        named = {"none", *(one.group for one in self.explanations)}
         return float(sum(p for name, p in self.groups if name not in named))
 
     @property

@@ -66,7 +66,6 @@ def _possible(found: Diagnosis) -> str:
         return ""
     first = next((one for one in found.explanations if one.causes and one.group == group), None)
     begin, nothing = "Something may be missing all the same", f"that nothing is: {probable(none)}"
-    first = next((one for one in found.explanations if one.causes and one.group == group), None)
     if first is None and found.nameless > none:
         return f"{begin}, most likely a change without a name ({with_p(found.nameless)}; {nothing})."
     if first is None:

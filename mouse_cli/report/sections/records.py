@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from mouse_cli._texts import capital
-from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, elsewhere
+from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, UNKNOWN, elsewhere
 from mouse_cli.model.record_diagnosis import AS_IT_IS, WITH_CAUSE, RecordDiagnosis, RecordScore
 from mouse_cli.model.record_update import RecordUpdate
 from mouse_cli.report.asked import considered
@@ -17,6 +17,8 @@ from mouse_cli.report.sections._wording import counted, deck_table, worded
 from mouse_cli.report.sections.diagnosis.evidence import evidence
 from mouse_cli.report.theory import stated
 from mouse_cli.report.verdict_sentences import remains, sentences
+
+_MOST = 0.5  # of chi2 of the model as it is, that the nearest explanation may leave to say where to look
 
 
 def answers(found: RecordDiagnosis, options: Options) -> Iterator[Block]:
@@ -43,14 +45,14 @@ def _where(found: RecordDiagnosis) -> str:
     if found.kind in (NAMED, ONE_OF):
         at = lambda one: f"{where(one)}{rivals_of_site(elsewhere(found.explanations, one))}"
         return "; ".join(capital(at(one)) for one in leaders(found)) + "."
-    best = found.best
-    if best is None or not best.causes:
+    near = found.nearest
+    if near is None or near.chi2 > _MOST * found.baseline.chi2:
         return "No site can be given."
-    return f"No site can be given. The nearest explanation, which does not suffice, has it here: {where(best)}."
+    return f"No site can be given. The nearest explanation, which does not suffice, has it here: {where(near)}."
 
 
 def _what(found: RecordDiagnosis) -> str:
-    baseline, best = found.baseline, found.best
+    baseline, best = found.baseline, found.nearest if found.kind == UNKNOWN else found.best
     left = f"The linear model leaves {baseline.chi2 / baseline.dof:.4g} times the variance that the accuracy of the channels has"
     if found.kind == NOTHING and found.noise:
         return f"{left}. {_noise(found)}"

@@ -137,13 +137,17 @@ def _what(found: Diagnosis) -> Iterator[Block]:
         yield Text(_unsettled(found))
         yield Table(columns, tuple(rows)).without_empty_columns()
         yield Text(f"{conditional}{_noise(found)}.")
-    elif best is None or not best.causes or found.groups[0][0] == "none":
-        yield Text(_if_accurate(found) or "No candidate does better than none at all.")
     else:
-        yield Text(
-            f"No candidate is adequate. The nearest, {best.title}, has a goodness of fit of {p_value(best.p)}{_noise(found)}; "
-            "nearest does not mean adequate."
-        )
+        yield Text(_if_accurate(found) or _inadequate(found))
+
+
+def _inadequate(found: Diagnosis) -> str:
+    """What comes nearest to an answer, and that it is none."""
+    near = found.nearest
+    if near is None:
+        return "No candidate does better than none at all."
+    fit = f" has a goodness of fit of {p_value(near.p)}" if near.dof > 0 else " has as many parameters as there are data"
+    return f"No candidate is adequate. The nearest, {near.title},{fit}{_noise(found)}; nearest does not mean adequate."
 
 
 def _if_accurate(found: Diagnosis) -> str:
@@ -231,7 +235,7 @@ def _true(found: Diagnosis) -> Iterator[Block]:
         return
     number = int(np.isfinite(held.measured_hz).sum())
     extended = {NAMED: "the extended model", ONE_OF: "all hypotheses together, each with its probability,"}.get(
-        found.kind, f"{found.best.title}, the nearest,"
+        found.kind, f"{found.best.title}, one of those that were tried,"
     )
     within = ""
     if number:

@@ -26,7 +26,7 @@ _SIZED = heads("<candidate | <parameter | value | sd | <unit | range from | to")
 
 
 def evidence(found: Diagnosis, options: Options) -> Iterator[Block]:
-    """One line for each explanation, the most probable first; then the parameters of their mechanisms."""
+    """One line for each explanation, in the order of `Diagnosis.listed`; then the parameters of their mechanisms."""
     if not found.explanations:
         yield Text("No candidate has a meaning for this model.")
         yield from untried_text(found.untried)
@@ -35,7 +35,7 @@ def evidence(found: Diagnosis, options: Options) -> Iterator[Block]:
         yield _brief(found)
         return
     likely = sum(one.probability >= _LEAST for one in found.explanations)
-    shown = found.explanations[: min(max(likely, _ALWAYS), _EVIDENCE_MOST)]
+    shown = found.listed[: min(max(likely, _ALWAYS), _EVIDENCE_MOST)]
     yield Table(_JUDGED, tuple(_judged(found, one) for one in shown)).without_empty_columns()
     more = len(found.explanations) - len(shown)
     rest = f" {more} less probable ones are left out; --json has all." if more else ""
@@ -54,7 +54,7 @@ def evidence(found: Diagnosis, options: Options) -> Iterator[Block]:
 def _brief(found: Diagnosis) -> Table:
     """The most probable explanations; the others are folded."""
     likely = sum(one.probability >= _COUNTS for one in found.explanations)
-    rows = tuple(_judged(found, one) for one in found.explanations)
+    rows = tuple(_judged(found, one) for one in found.listed)
     rest = "" if found.kind == UNKNOWN else f"of probability below {_COUNTS:g}"
     table = Table(_JUDGED, rows, kept=_FEW if found.kind == UNKNOWN else max(likely, 2), rest=rest)
     return table.without_empty_columns()
