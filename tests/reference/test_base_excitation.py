@@ -350,17 +350,20 @@ def test_a_common_factor_is_set_by_the_prior(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("outputs", "gain", "said"),
+    ("outputs", "gain", "table", "said"),
     [
-        ("{1: f1, 2: f3, 3: f2}", 1.0, "with channels f3 and f2 exchanged"),
-        ("{1: f1, 2: f2, 3: f3}", 1.15, "if channel f2 reads 1.1"),
+        ("{1: f1, 2: f3, 3: f2}", 1.0, 1.0, "with channels f3 and f2 exchanged"),
+        ("{1: f1, 2: f2, 3: f3}", 1.15, 1.0, "if channel f2 reads 1.1"),
+        ("{1: f1, 2: f2, 3: f3}", 1.0, 1.08, "if channel ag reads 1.0"),
     ],
 )
-def test_a_channel_on_a_table_that_is_another_one_or_scaled_is_told(tmp_path, outputs, gain, said):
-    """Masses 1 % sure would be 90 prior sd off for it; and 15 % of one channel passed for noise, with nothing missing."""
+def test_a_channel_on_a_table_that_is_another_one_or_scaled_is_told(tmp_path, outputs, gain, table, said):
+    """Masses 1 % sure would be 90 prior sd off for it; 15 % of one channel passed for noise, with nothing missing; and 8 % of the
+    table's for a heavy oscillator below the band.
+    """
     k = chain(K)
     ag, _, floors, _ = absolute(M, damping(M, k), k, np.ones(3))
-    path = deck(tmp_path, ag, floors * [1.0, gain, 1.0], outputs=outputs)
+    path = deck(tmp_path, ag * table, floors * [1.0, gain, 1.0], outputs=outputs)
     problem = read_deck(str(path))
     with pytest.raises(DeckError) as refused:
         check(study(problem, records(problem)))

@@ -31,6 +31,7 @@ _RATES = (2.0, 10.0, 1e3, 2 * np.pi)  # that a sample rate may be wrong by
 _PAIRED = 8  # channels that may be exchanged where the model leaves little
 _TURNS, _SLIGHT = 4, 0.02  # of a scale that is sought; a channel that is off by less is none that is wrong
 _LIKELY = 2  # units of a kind that one channel alone is taken to be in
+_WIDE = 0.7  # of the logarithm of the scale of a table, either way
 
 
 @dataclass(frozen=True)
@@ -66,24 +67,47 @@ def check(own: Study) -> None:
 
 
 def _check_scales(own: Study, look: Series, at: Regression, before: float) -> None:
-    """Raise DeckError (MD457) where one output at another scale leaves no more than noise of a record, and as it is more."""
+    """Raise DeckError (MD457) where one output at another scale, or else the motion of the ground, leaves no more than noise of a
+    record, and as it is more.
+    """
     if at.nothing <= INADEQUATE * at.y.size:
         return
     record, _ = _record(own, look)
     outputs = _columns(own.problem, own.records.outputs)
     loudest = int(np.argmax((at.left[at.kept] ** 2).sum(axis=0)))
-    column, factor, there = outputs[loudest], 1.0, at
+    scaled = [(outputs[loudest], _by_model(own, look, loudest, record, at))]
+    grounds = [j for j in _columns(own.problem, own.records.inputs) if record.channels[j].ground]
+    scaled += [(j, _by_search(own, look, j, record)) for j in grounds if len(grounds) == 1]
+    for column, factor in scaled:
+        there = None if factor is None else _reread(own, _changed([column], factor)(record), look)
+        if there is None or there.nothing > INADEQUATE * there.y.size or _strained(there) or abs(factor - 1) < _SLIGHT:
+            continue
+        name, reads = _named(record, [column]), f"{1 / factor:.4g} times what it measures"
+        remedy = f"check the calibration of {name}, which reads {reads}"
+        found = _Reading(f"if {name} reads {reads}", remedy, _changed([column], factor))
+        raise DeckError(_told(own.problem, record, before, [(_left(there, record.samples[:, outputs])[0], found)]))
+
+
+def _by_model(own: Study, look: Series, j: int, record: Recording, at: Regression) -> float | None:
+    """The factor of output j with which the model, its nuisances free, says what it reads; None where it cannot judge."""
+    column, factor = _columns(own.problem, own.records.outputs)[j], 1.0
     for _ in range(_TURNS):
-        factor /= 1 + _share(there, loudest)
-        there = _reread(own, _changed([column], factor)(record), look)
-        if there is None:
-            return
-    if there.nothing > INADEQUATE * there.y.size or _strained(there) or abs(factor - 1) < _SLIGHT:
-        return
-    name, reads = _named(record, [column]), f"{1 / factor:.4g} times what it measures"
-    remedy = f"check the calibration of {name}, which reads {reads}"
-    found = _Reading(f"if {name} reads {reads}", remedy, _changed([column], factor))
-    raise DeckError(_told(own.problem, record, before, [(_left(there, record.samples[:, outputs])[0], found)]))
+        factor /= 1 + _share(at, j)
+        at = _reread(own, _changed([column], factor)(record), look)
+        if at is None:
+            return None
+    return factor
+
+
+def _by_search(own: Study, look: Series, column: int, record: Recording) -> float | None:
+    """The factor of the motion of the ground that leaves least of a record."""
+    from scipy.optimize import minimize_scalar
+
+    def left(log: float) -> float:
+        at = _reread(own, _changed([column], float(np.exp(log)))(record), look)
+        return np.inf if at is None else float(np.log(at.nothing))
+
+    return float(np.exp(minimize_scalar(left, bounds=(-_WIDE, _WIDE), method="bounded", options={"xatol": 1e-4}).x))
 
 
 def _share(at: Regression, j: int) -> float:
@@ -113,8 +137,26 @@ def _check(own: Study, look: Series, before: float, by_channel: np.ndarray) -> N
         after = _read(own, each.of(record), outputs, look)
         if after < _GAINED * min(before, 1.0):
             found.append((after, each))
+    if not found and by_channel.max() >= _ASTRAY:
+        found = list(_of_kind_and_scale(own, look, record, int(np.argmax(by_channel)), before))
     if found:
         raise DeckError(_told(problem, record, before, found))
+
+
+def _of_kind_and_scale(own: Study, look: Series, record: Recording, j: int, before: float) -> Iterator[tuple[float, _Reading]]:
+    """Readings of output j as another kind of motion, at whatever scale, that leave little."""
+    outputs = _columns(own.problem, own.records.outputs)
+    for each in _of_kind(own.problem, record, [outputs[j]], 1):
+        other = each.of(record)
+        at = _reread(own, other, look)
+        factor = None if at is None else _by_model(own, look, j, other, at)
+        if factor is None:
+            continue
+        scaled = _changed([outputs[j]], factor)
+        after = _read(own, scaled(other), outputs, look)
+        if after < _GAINED * min(before, 1.0):
+            times = f"{1 / factor:.4g} times it"
+            yield after, _Reading(f"{each.said}, {times}", f"{each.remedy}, and scale it: it reads {times}", scaled)
 
 
 def _told(problem: Problem, record: Recording, before: float, found: list[tuple[float, _Reading]]) -> Diagnostic:
