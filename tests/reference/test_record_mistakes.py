@@ -21,7 +21,7 @@ MISREAD = {  # changes of channels, of the deck, and what the finding says and w
     "all as velocities": ({}, {UNITS: "quantity: velocity, unit: m/s"}, "a1, a2 as acceleration in m/s2", "quantity: acceleration"),
     "one as velocity": ({}, {f"a2, {UNITS}": "a2, quantity: velocity, unit: m/s"}, "channel a2 as acc", "channel a2"),
     "another kind at a scale": (
-        {"a2": 7.3}, {f"a2, {UNITS}": "a2, quantity: displacement, unit: m"}, "acceleration in m/s2, 7.3 times it", "scale it"
+        {"a2": 7.3}, {f"a2, {UNITS}": "a2, quantity: displacement, unit: m"}, "acceleration in m/s2, 7.3", "scale it"
     ),
     "in ms": ({}, {"512.0": "0.512"}, "sampled at 512 Hz", "write sample_rate: 512"),
     "half the rate": ({}, {"512.0": "256"}, "sampled at 512 Hz", "write sample_rate: 512"),
