@@ -29,6 +29,7 @@ from mouse_cli.updating.recordings.fit import Fit
 from mouse_cli.updating.recordings.misread import misread
 from mouse_cli.updating.recordings.mistakes import check
 from mouse_cli.updating.recordings.noise import doubtful, noise
+from mouse_cli.updating.recordings.positional import positional
 from mouse_cli.updating.recordings.pushed import pushed
 from mouse_cli.updating.recordings.regression import Regression, Start, starts
 from mouse_cli.updating.recordings.study import Study, fitted
@@ -78,6 +79,8 @@ def weighed(study: Study, notice: Notice, known: list[Law] | None = None, causes
     if not missing(baseline):
         return Weighed(baseline, [])
     check(study)
+    if (repeats := positional(study.spectrum, study.base, study.places)) is not None:
+        return Weighed(baseline, [], otherwise=repeats.said())
     quiet = _left(study, baseline) if unlikely(baseline) else None
     noisy = _quietly(baseline, quiet)
     if noisy and not doubtful(study.spectrum, study.base, study.places, quiet):
