@@ -9,6 +9,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Recipe
 from mouse_cli.diagnosis.likelihoods.frf.damping import Damping
+from mouse_cli.diagnosis.likelihoods.frf.damping import damping as of_model
 from mouse_cli.diagnosis.likelihoods.frf.dashpots import dashpots
 from mouse_cli.diagnosis.likelihoods.frf.data import FrfData
 from mouse_cli.diagnosis.likelihoods.frf.lossy import GROUPS, LAWS, LOSS, SAME, lossy
@@ -36,6 +37,7 @@ class Judge:
     damping: Damping
     known: np.ndarray | None = None
     _kept: dict[tuple, tuple[End, float, Any]] = field(default_factory=dict, init=False, repr=False, compare=False)
+    _coarse: dict[int, tuple[np.ndarray, Damping]] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def windowed(self, name: str) -> "Judge | None":
         """By functions of blocks of that window, where a deck states none, and no decay rate; None where it states all."""
@@ -63,7 +65,17 @@ class Judge:
             modes = None
         else:
             modes = modes.sharpened(self.known)
-        return FrfModel(base.judged_by(replace(self.data, modes=modes)), self.damping, recipes)
+        return FrfModel(base.judged_by(replace(self.data, modes=modes)), self._damping(base), recipes)
+
+    def _damping(self, base: Reduced) -> Damping:
+        """That of the structure in the coordinates of `base`, which has few of them in a first look."""
+        own = self.damping
+        if not len(own.rows) or own.rows.shape[1] == base.r:
+            return own
+        if id(base.V) not in self._coarse:
+            self._coarse[id(base.V)] = base.V, of_model(base)
+        _, few = self._coarse[id(base.V)]
+        return replace(own, rows=few.rows, own=few.own, viscous=few.viscous)
 
     def fitted(
         self, one: End, law: str = SAME, most: int = MOST, damping: Damping | None = None, reach: float = np.inf
