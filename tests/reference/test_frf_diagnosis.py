@@ -18,10 +18,12 @@ from mouse_cli.diagnosis.likelihoods.frf.dashpots import dashpots
 from mouse_cli.diagnosis.likelihoods.frf.data import FrfData, lines
 from mouse_cli.diagnosis.likelihoods.frf.extend import with_loss
 from mouse_cli.diagnosis.likelihoods.frf.identified import with_modes
+from mouse_cli.diagnosis.likelihoods.frf.judge import Judge
 from mouse_cli.diagnosis.likelihoods.frf.lossy import STRUCTURAL, VISCOUS, lossy
 from mouse_cli.diagnosis.likelihoods.frf.model import FrfModel
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.mechanisms import registry
+from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.dynamics.solver import EigenSolver
 from mouse_cli.formats import read_deck, yaml_deck
 from mouse_cli.formats.assemble import assemble
@@ -205,6 +207,36 @@ test:
     found = damping(reduced(problem, problem.prior.mean))
     assert found.stated == pytest.approx(0.02)
     assert np.isfinite(found.mean).all()
+
+
+RAFT = """\
+mouse: 1
+model:
+  structure:
+    nodes: {line: {from: 1, to: 25, start: [0, 0, 0], end: [8, 0, 0]}}
+    materials: {concrete: {E: 3.0e+10, nu: 0.3, density: 2450, loss_factor: 0.02}}
+    sections: {raft: {rectangle: [2.0, 0.35]}}
+    elements:
+      - {id: 1-24, type: beam, nodes: 1-25, material: concrete, section: raft}
+      - {id: 31-54, type: foundation, nodes: 1-25, kz: 6.0e+7, loss_factor: 0.08}
+    directions: [TZ, RY]
+parameters:
+  - {name: bed, elements: 31-54, property: kz, factor: true, sd: 8 %}
+test:
+  modes: {frequency: [20, 25, 40], frequency_sd: 1 %}
+"""
+
+
+def test_a_first_look_has_the_local_losses_of_the_deck_in_its_own_coordinates():
+    """A raft whose soil loses more than its concrete: a first look in fewer coordinates ended in a ValueError."""
+    problem = assemble(yaml_deck.read(RAFT, "raft.yaml"))
+    base = reduced(problem, problem.prior.mean)
+    few = Study(base).coarse.model
+    assert few.r < base.r
+    found, own = Judge(None, damping(base))._damping(few), damping(few)
+    for name in ("rows", "own", "viscous"):
+        assert (getattr(found, name) == getattr(own, name)).all()
+    assert Judge(None, damping(base))._damping(base).rows.shape[1] == base.r
 
 
 @pytest.mark.filterwarnings("error")

@@ -33,10 +33,10 @@ class Positional:
         """What it is, in a sentence."""
         turn = 2 * np.pi / self.period
         return (
-            f"A force {self.place.site.text} that repeats with the position, every {self.period:.4g} of it ({turn:.4g} to a turn "
-            f"of an angle in rad), takes {100 * self.share:.2g} % of what the model leaves: amplitude about "
-            f"{self.amplitude:.2g}. No law of the library acts so: cogging of a motor, teeth that mesh, an eccentric gear, a weight "
-            "off its axis. Its amplitude and period are of a first look, without a standard deviation."
+            f"A force {self.place.site.text} that repeats with the position, every {self.period:.4g} of it ({turn:.4g} to a "
+            f"turn of an angle in rad), takes {100 * self.share:.2g} % of what the model leaves: amplitude about "
+            f"{self.amplitude:.2g}. No law of the library acts so: cogging of a motor, teeth that mesh, an eccentric gear, a "
+            "weight off its axis. Its amplitude and period are of a first look, without a standard deviation."
         )
 
 
