@@ -4,7 +4,7 @@ A mode of its own that hardly loses energy follows it within a stretch, in which
 record: one amplitude and one phase, whatever the measured force does.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -12,10 +12,12 @@ from mouse_cli.updating.recordings.acting import Place
 from mouse_cli.updating.recordings.disturbance import Disturbance
 from mouse_cli.updating.recordings.free_force import Spectrum
 from mouse_cli.updating.recordings.hypothesis import Hypothesis
+from mouse_cli.updating.recordings.noise import predicted
 from mouse_cli.updating.recordings.regression import Regression
 
-_LEAST, _STEADY = 0.1, 0.05  # share of what is left that it has; of what is left about its line, that remains without it
+_LEAST, _STEADY = 0.1, 0.15  # share of what is left that it has; of what is left about its line, that remains without it
 _ABOUT = 12  # lines on either side of it
+_ROUNDS = 4  # of a tone and the parameters that follow it
 _CYCLES = 20  # that a record has of it, at least
 _LINE = 5.0  # times the median of the lines about it, from which on a force has a line there itself
 _PARTS, _PERSISTENT = 8, 0.2  # of a record, and of the rms of its force that each has, so that nothing rings down freely
@@ -41,17 +43,25 @@ class Tone:
 def tone(spectrum: Spectrum, base: Hypothesis, places: list[Place]) -> Tone | None:
     """The loudest steady tone of what the model leaves; None where there is none, or it is left out of fits already."""
     series = spectrum.series
-    at = Regression(spectrum, base.placed(places[0]))
+    look = lambda series: Regression(replace(spectrum, series=series), base.placed(places[0]))
+    at = look(series)
     force, left = series.force[at.kept], at.left[at.kept]
-    if series.free or series.slow or not _persistent(force):
+    if series.slow or not (series.free or _persistent(force)):
         return None
     power, hz = _spectrum(left).sum(axis=1), np.fft.rfftfreq(len(left), series.dt)
     power[hz < _CYCLES * hz[1]] = 0.0
-    f, steady = _fitted(left, series.dt, hz[int(power.argmax())])
+    f, rest, steady = float(hz[int(power.argmax())]), left, np.zeros_like(series.measured)
+    for _ in range(_ROUNDS):
+        f, steady = _fitted(rest + steady[at.kept], series.dt, f, hz[1], at.kept.start, len(steady))
+        if series.free:  # the state in which it begins follows what is taken off
+            rest = left - steady[at.kept]
+            break
+        rest = look(replace(series, measured=series.measured - steady * series.sd)).left[at.kept]
     near = np.abs(hz - f) <= _ABOUT * hz[1]
-    beside = _spectrum(left - steady).sum(axis=1)[near].sum()
-    share = float((steady**2).sum() / (left**2).sum())
-    if share < _LEAST or beside > _STEADY * power[near].sum() or _driven(force, hz, f) or _left_out(series.disturbance, f, hz[1]):
+    share = 1 - float((rest**2).sum() / (left**2).sum())
+    if share < _LEAST or _spectrum(rest).sum(axis=1)[near].sum() > _STEADY * power[near].sum():
+        return None
+    if _left_out(series.disturbance, f, hz[1]) or _driven(force, hz, f) or (series.free and not _dies_away(predicted(at))):
         return None
     return Tone(f, share)
 
@@ -61,19 +71,28 @@ def _spectrum(x: np.ndarray) -> np.ndarray:
     return np.abs(np.fft.rfft(x * np.hanning(len(x))[:, None], axis=0)) ** 2
 
 
-def _fitted(left: np.ndarray, dt: float, begin: float) -> tuple[float, np.ndarray]:
-    """Frequency, Hz, of the sinusoid of one amplitude and phase in each channel that takes most of `left` (t, s), and it (t, s)."""
+def _fitted(x: np.ndarray, dt: float, begin: float, line: float, first: int, count: int) -> tuple[float, np.ndarray]:
+    """Frequency, Hz, of the sinusoid of one amplitude and phase in each channel that takes most of x (t, s), and it (count, s), of
+    which x begins at sample `first`. It is within a `line` of where it is sought.
+    """
     from scipy.optimize import minimize_scalar
 
-    t = dt * np.arange(len(left))
+    t = dt * (np.arange(count) - first)
+    columns = lambda f: np.column_stack([np.cos(2 * np.pi * f * t), np.sin(2 * np.pi * f * t)])
+    own = slice(first, first + len(x))
 
-    def taken(f: float) -> np.ndarray:
-        A = np.column_stack([np.cos(2 * np.pi * f * t), np.sin(2 * np.pi * f * t)])
-        return A @ np.linalg.lstsq(A, left, rcond=None)[0]
+    def left(f: float) -> float:
+        A = columns(f)[own]
+        return -float(((A @ np.linalg.lstsq(A, x, rcond=None)[0]) ** 2).sum())
 
-    step = 1 / t[-1]
-    f = minimize_scalar(lambda f: -float((taken(f) ** 2).sum()), bounds=(begin - step, begin + step), method="bounded").x
-    return float(f), taken(f)
+    f = float(minimize_scalar(left, bounds=(begin - line, begin + line), method="bounded", options={"xatol": 1e-4 * line}).x)
+    return f, columns(f) @ np.linalg.lstsq(columns(f)[own], x, rcond=None)[0]
+
+
+def _dies_away(x: np.ndarray) -> bool:
+    """Whether the motion (t, s) of a free decay is over before its record is."""
+    first, *_, last = (float(np.sqrt((part**2).mean())) for part in np.array_split(x, _PARTS))
+    return last < _PERSISTENT * first
 
 
 def _persistent(force: np.ndarray) -> bool:
