@@ -44,10 +44,14 @@ UNPROVED = 0.02  # probability that nothing is missing, from which on it is one 
 
 @dataclass(frozen=True)
 class Rest:
-    """What remains unexplained with the mechanisms that are named: share of the misfit of the model as it is, p-value of it."""
+    """What remains unexplained with the mechanisms that are named: share of the misfit of the model as it is, p-value of it.
+
+    there: whether most of it follows from the motion at the place of the one that is named, whose law has another shape.
+    """
 
     share: float
     p: float
+    there: bool = False
 
 
 @dataclass(frozen=True)

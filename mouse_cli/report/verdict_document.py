@@ -78,7 +78,7 @@ def shared(found: SharedPlace | None) -> dict[str, Any]:
 
 def rest(found: Rest | None) -> dict[str, Any] | None:
     """What remains unexplained beside what is named."""
-    return None if found is None else {"share": found.share, "p": found.p}
+    return None if found is None else {"share": found.share, "p": found.p, "there": found.there}
 
 
 def field(found: Field | None) -> dict[str, Any] | None:

@@ -22,7 +22,7 @@ from mouse_cli.report.sections._diagnosis_wording import (
     within,
 )
 
-_EVEN = 0.5  # probability of no mechanism up to which one is called likely
+_EVEN = 0.5  # probability of no mechanism up to which one is called likely, and of what has no name from which on it is described
 _SURE = 0.95  # probability of what acts beside a name, from which on its place alone is open
 
 
@@ -128,12 +128,15 @@ def _loose(found: Diagnosis) -> str:
 
 
 def _rest(rest: Rest | None) -> str:
-    return "" if rest is None else f", and something more: {remains(rest)}"
+    if rest is None:
+        return ""
+    return f", whose law is of another shape than this: {remains(rest)}" if rest.there else f", and something more: {remains(rest)}"
 
 
 def remains(rest: Rest) -> str:
     """What is left unexplained beside what was named."""
-    return f"{100 * rest.share:.2g} % of the misfit remains, {p_value(rest.p)}"
+    there = ", and most of it follows from the motion there" * rest.there
+    return f"{100 * rest.share:.2g} % of the misfit remains{there}, {p_value(rest.p)}"
 
 
 def _one_of(found: Diagnosis) -> str:
@@ -167,7 +170,7 @@ def _nameless(found: Diagnosis) -> tuple[str, ...]:
     """What has no name, where it is a rival."""
     if not found.nameless > RIVAL:
         return ()
-    acts = "" if found.field is None else f" that {field_acts(found.field)}"
+    acts = f" that {field_acts(found.field)}" if found.field is not None and found.nameless > _EVEN else ""
     return (f"a change without a name{acts} ({with_p(found.nameless)})",)
 
 

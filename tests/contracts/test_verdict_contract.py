@@ -164,11 +164,15 @@ def test_sites_that_read_alike_are_no_rivals():
 
 def test_what_remains_is_said():
     found = DIAGNOSES["members"]()
-    assert report.document(found)["verdict"]["rest"] == {"share": 0.12, "p": 3e-9}
+    assert report.document(found)["verdict"]["rest"] == {"share": 0.12, "p": 3e-9, "there": False}
     assert ", and something more: 12 % of the misfit remains, p < 1e-6." in words(found)
     assert report.document(DIAGNOSES["named"]())["verdict"]["rest"] is None
+    shaped = replace(found, rest=replace(found.rest, there=True))
+    assert report.document(shaped)["verdict"]["rest"]["there"]
+    remains = "12 % of the misfit remains, and most of it follows from the motion there, p < 1e-6."
+    assert f", whose law is of another shape than this: {remains}" in words(shaped)
     some = configurations(adequate=False)
-    assert report.document(some)["verdict"]["rest"] == {"share": pytest.approx(3.6 / 12.0), "p": 1e-9}
+    assert report.document(some)["verdict"]["rest"] == {"share": pytest.approx(3.6 / 12.0), "p": 1e-9, "there": False}
     assert "with all of it in the model 30 % of the misfit remains, p < 1e-6." in words(some)
 
 

@@ -46,13 +46,14 @@ class Fit:
 
     @property
     def causes(self) -> tuple[Cause, ...]:
-        """Its laws at their places, with their sizes."""
+        """Its laws at their places, with their sizes, whose sd are of noise as large as what it leaves."""
+        wider = np.sqrt(max(self.misfit / max(self.dof, 1), 1.0))
         sd = np.sqrt(np.abs(np.diag(self.covariance)))[self.hypothesis.nuisances :]
         found = []
         for part, p in self.hypothesis.sizes(self.x[None]):
             own, sd = sd[: len(part.unknowns)], sd[len(part.unknowns) :]
             values = zip(part.unknowns, p[:, 0], own, strict=True)
-            sizes = tuple(Size(u.name, u.unit, float(v), float(v * s), u.lower, u.upper) for u, v, s in values)
+            sizes = tuple(Size(u.name, u.unit, float(v), float(wider * v * s), u.lower, u.upper) for u, v, s in values)
             group = part.law.seen_as(own)
             found.append(Cause(part.law.key, group, part.title, part.site, sizes))
         return tuple(found)

@@ -43,7 +43,7 @@ def noise(spectrum: Spectrum, base: Hypothesis, places: list[Place], begun: np.n
         return None
     most = max(EXPLAINED, _CHANCE / count)
     explained = 0.0
-    for share in (_freely, _by_laws):  # the quicker one decides most
+    for share in (freely, _by_laws):  # the quicker one decides most
         for place in places if share is _by_laws else [one for one in places if one.across is None]:
             explained = max(explained, share(look(white, place)))
             if explained > most:
@@ -130,7 +130,7 @@ def _growth(at: Regression) -> float:
     return float(max(slope - 2 * error, 0.0))
 
 
-def _freely(at: Regression) -> float:
+def freely(at: Regression) -> float:
     """Share of what is left that forces take which are any function of the motion, and any of the velocity."""
     found = []
     for z in (at.local.x, at.local.v):

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from mouse_cli.diagnosis.extend.laws import extended
 from mouse_cli.diagnosis.likelihoods.history.search import weighed
-from mouse_cli.diagnosis.likelihoods.history.verdict import decided, explanations, ranked, remedies, untried
+from mouse_cli.diagnosis.likelihoods.history.verdict import Decision, decided, explanations, ranked, remedies, untried
 from mouse_cli.diagnosis.search.rank import Ranking
 from mouse_cli.diagnosis.verdict import leader
 from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, UNKNOWN, Choices, Diagnosis
@@ -16,10 +16,15 @@ from mouse_cli.terms.laws import registry
 from mouse_cli.updating.chi_square import upper_tail
 from mouse_cli.updating.recordings.at_odds import odd
 from mouse_cli.updating.recordings.channels import misreadings
+from mouse_cli.updating.recordings.fit import Fit
+from mouse_cli.updating.recordings.noise import freely
 from mouse_cli.updating.recordings.records import named, records
+from mouse_cli.updating.recordings.regression import Regression
 from mouse_cli.updating.recordings.signs import linearity
 from mouse_cli.updating.recordings.study import Study, finer, study
 from mouse_cli.updating.recordings.validation import ratio, scores, surface, trace
+
+_THERE = 0.5  # share of what a law leaves that any law of the motion or the velocity there takes, from which on it is of the law
 
 Notice = Callable[[str], None]
 
@@ -38,7 +43,7 @@ def diagnose_records(problem: Problem, notice: Notice, choices: Choices, own: St
     notice("records that no fit has seen")
     best = leader(ranking)
     proof = scores(own, baseline, best)
-    decision = decided(ranking, searched, ratio(proof), own.look.free, known is None)
+    decision = _with_shape(own, best, decided(ranking, searched, ratio(proof), own.look.free, known is None))
     kind = decision.kind
     told = best if kind in (NAMED, ONE_OF) else None
     strange = odd(best or baseline, own.data) if kind == UNKNOWN and not searched.otherwise else None
@@ -64,6 +69,14 @@ def diagnose_records(problem: Problem, notice: Notice, choices: Choices, own: St
         surface=None if told is None else surface(own, told),
         extended=None if told is None else extended(problem, told),
     )
+
+
+def _with_shape(own: Study, best: Fit | None, decision: Decision) -> Decision:
+    """The same, and whether what remains follows from the motion where the law is."""
+    if decision.rest is None or best is None:
+        return decision
+    at = Regression(own.spectrum, best.hypothesis.placed(best.hypothesis.parts[0].place), best.x)
+    return replace(decision, rest=replace(decision.rest, there=freely(at) > _THERE))
 
 
 def _finer(own: Study, found: Ranking) -> Ranking:
