@@ -6,6 +6,7 @@ import numpy as np
 
 _SHORTEST_TOP = 3  # equal samples at the extreme that are a flat top
 _STUCK = 200  # equal samples in a row, not at zero, that are no vibration
+_DROPPED, _SELDOM, _JUMP = 20, 0.1, 0.3  # zeros in a row; share of all samples; of the rms, of the samples before and after them
 _EXTREME = 0.5  # of the largest magnitude: a flat value below is rest, no limit
 _LIMITED = 0.5  # a signal that stands at its extremes for longer is a binary excitation
 
@@ -33,7 +34,7 @@ def faults(x: np.ndarray) -> list[Fault]:
     if low == high:
         return [Fault("constant" if low else "dead", 0, len(x), low)]
     found = [_clipped(x, value) for value in (low, high) if abs(value) >= _EXTREME * max(-low, high)]
-    return [fault for fault in [*found, _stuck(x, low, high)] if fault is not None]
+    return [fault for fault in [*found, _stuck(x, low, high), _dropped(x)] if fault is not None]
 
 
 def _clipped(x: np.ndarray, value: float) -> Fault | None:
@@ -65,6 +66,18 @@ def _stuck(x: np.ndarray, low: float, high: float) -> Fault | None:
         return None
     first = int(begin[keep][0])
     return Fault("stuck", first, int(length[keep].sum() + keep.sum()), float(x[first]))
+
+
+def _dropped(x: np.ndarray) -> Fault | None:
+    """Zeros in the midst of a motion, as of a loose cable: a force that acts now and then is zero for most of the time."""
+    at = x == 0
+    if not _DROPPED <= np.count_nonzero(at) <= _SELDOM * len(x):
+        return None
+    begin, length = _runs(at)
+    least, end = _JUMP * float(np.sqrt((x**2).mean())), begin + length
+    inside = (length >= _DROPPED) & (begin > 0) & (end < len(x))
+    jumps = inside & (np.abs(x[begin - 1]) > least) & (np.abs(x[np.minimum(end, len(x) - 1)]) > least)
+    return Fault("stuck", int(begin[jumps][0]), int(length[jumps].sum()), 0.0) if jumps.any() else None
 
 
 def _runs(mask: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -155,8 +155,9 @@ def _one_of(found: Diagnosis) -> str:
         return f"{likely} something is missing ({nothing}), and {test} not settle what: one of {{{named}}}."
     (one,) = first
     inside, p = within(found.explanations, one), with_p(dict(found.groups)[one.group])
-    what = f"{named if inside else lacking(one)} ({p}; that nothing is missing: {probable(none)})"
-    return f"{likely} the model lacks {what}{f': {inside}' if inside else ''}."
+    nothing = f"; that nothing is missing: {probable(none)}" if none > UNPROVED else ", and not validated"
+    begin = "the test is at fault:" if faulty(one) else "the model lacks"
+    return f"{likely} {begin} {named if inside else lacking(one)} ({p}{nothing}){f': {inside}' if inside else ''}."
 
 
 def _common(found: Diagnosis) -> str:

@@ -439,6 +439,16 @@ def test_what_is_no_fault():
     assert not faults(stroke)
 
 
+def test_zeros_in_the_midst_of_a_motion_are_a_loose_cable():
+    """60 of 6000 samples passed for noise, hum or drift."""
+    x = np.random.default_rng(3).standard_normal(6000)
+    x[2000:2060] = 0.0
+    (found,) = faults(x)
+    assert (found.kind, found.sample, found.count, found.value) == ("stuck", 2000, 60, 0.0)
+    x[:4000] = 0.0  # before anything moves
+    assert not faults(x)
+
+
 def test_clock_of_rounded_times():
     """Times of 5 kHz printed to 1 ms: steps are 0 or 1 ms, and 5 kHz all the same."""
     ticks = clock(np.round(np.arange(20000) / 5000, 3))

@@ -122,6 +122,11 @@ test:
 """
 
 
+def test_a_number_in_quotes_is_the_number_where_nothing_is_called_so(tmp_path):
+    quoted, plain = (read_deck(deck(tmp_path, MATRICES.replace(', 1],', f", {one}],"))).test for one in ('"1"', "1"))
+    assert (quoted.sensing != plain.sensing).nnz == 0
+
+
 def test_sensors_survive_writing(tmp_path):
     problem = read_deck(deck(tmp_path, MATRICES))
     assert problem.test.sensing.toarray().tolist() == [[0, 1, 0], [0, 0, -1], [0.25, 0, -1.5], [1, 0, 0]]

@@ -244,7 +244,12 @@ def _named(
 def _moved(
     draft: Draft, sensor: SensorDraft, geometry: Geometry | None, place: dict[str, int], name: int | str, n: int
 ) -> tuple[np.ndarray, np.ndarray] | None:
-    """The degrees of freedom, from 0, and factors that move what a number or a label names: one, or those of a rigid link."""
+    """The degrees of freedom, from 0, and factors that move what a number or a label names: one, or those of a rigid link.
+
+    A number in quotes that is no label is the number.
+    """
+    if isinstance(name, str) and name not in place and name.isdecimal():
+        name = int(name)
     if isinstance(name, int):
         if 1 <= name <= n:
             return np.array([name - 1]), np.ones(1)

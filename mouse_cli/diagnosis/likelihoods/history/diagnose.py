@@ -47,7 +47,7 @@ def diagnose_records(problem: Problem, notice: Notice, choices: Choices, own: St
     kind = decision.kind
     told = best if kind in (NAMED, ONE_OF) else None
     strange = odd(best or baseline, own.data) if kind == UNKNOWN and not searched.otherwise else None
-    cautions = decision.cautions + remedies(told, own) + (() if strange is None else (strange.said(found.outputs),))
+    cautions = decision.cautions + remedies(told if decision.rest is None else None, own) + (() if strange is None else (strange.said(found.outputs),))
     cautions += (searched.otherwise,) if searched.otherwise else ()
     dof = max(int(baseline.dof), 1)
     return RecordDiagnosis(

@@ -1,0 +1,113 @@
+"""Channels at another scale, or without what is slow: a factor, or a corner, with which the model explains a record."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from mouse_cli._errors import DeckError
+from mouse_cli.model.recording import Recording
+from mouse_cli.updating.recordings.adequacy import INADEQUATE
+from mouse_cli.updating.recordings.coupled import coupled
+from mouse_cli.updating.recordings.noise import predicted
+from mouse_cli.updating.recordings.readings import (
+    Reading,
+    changed,
+    columns_of,
+    named,
+    record_of,
+    reread,
+    shares_left,
+    strained,
+    told,
+)
+from mouse_cli.updating.recordings.regression import Regression
+from mouse_cli.updating.recordings.series import Series
+from mouse_cli.updating.recordings.study import Study
+
+_TURNS, _SLIGHT = 4, 0.02  # of a scale that is sought; a channel that is off by less is none that is wrong
+_WIDE = 0.7  # of the logarithm of the scale of a table, or of a corner, either way
+_THOUGHT = 0.5  # of what is left, that a corner leaves in closed form to be thought of
+
+
+def check_coupling(own: Study, look: Series, at: Regression, before: float) -> None:
+    """Raise DeckError (MD457) where outputs that lose what is slow explain a record, and as they are read they do not."""
+    slow = coupled(at) if at.nothing > INADEQUATE * at.y.size else None
+    if slow is None or slow.left > _THOUGHT * at.nothing:
+        return
+    record, _ = record_of(own, look)
+    outputs = columns_of(own.problem, own.records.outputs)
+    wrong = [outputs[j] for j in slow.outputs]
+    others = [j for j in range(len(record.channels)) if j not in wrong]
+    corner = slow.corner_hz * _least(own, look, record, lambda factor: _filtered(others, slow.corner_hz * factor))
+    there = reread(own, _filtered(others, corner)(record), look)
+    if there is None or there.nothing > INADEQUATE * there.y.size or strained(there):
+        return
+    names = named(record, wrong)
+    said = f"if {names} lose{'s' * (len(wrong) == 1)} what is slower than {corner:.3g} Hz (AC coupling, a high-pass of first order)"
+    remedy = f"pass the other channels through the same filter, or {names} through its inverse; or record with DC coupling"
+    found = Reading(said, remedy, _filtered(others, corner))
+    raise DeckError(told(own.problem, record, before, [(shares_left(there, record.samples[:, outputs])[0], found)]))
+
+
+def _filtered(columns: Sequence[int], corner_hz: float) -> Callable[[Recording], Recording]:
+    """Channels through a high-pass of first order."""
+    from scipy.signal import butter, lfilter
+
+    def of(one: Recording) -> Recording:
+        samples = one.samples.copy()
+        samples[:, columns] = lfilter(*butter(1, corner_hz, "high", fs=1 / one.time_step_s), samples[:, columns], axis=0)
+        return replace(one, samples=samples)
+
+    return of
+
+
+def check_scales(own: Study, look: Series, at: Regression, before: float) -> None:
+    """Raise DeckError (MD457) where one output at another scale, or else the motion of the ground, leaves no more than noise of a
+    record, and as it is more.
+    """
+    if at.nothing <= INADEQUATE * at.y.size:
+        return
+    record, _ = record_of(own, look)
+    outputs = columns_of(own.problem, own.records.outputs)
+    loudest = int(np.argmax((at.left[at.kept] ** 2).sum(axis=0)))
+    scaled = [(outputs[loudest], by_model(own, look, loudest, record, at))]
+    grounds = [j for j in columns_of(own.problem, own.records.inputs) if record.channels[j].ground]
+    scaled += [(j, _least(own, look, record, partial(changed, [j]))) for j in grounds if len(grounds) == 1]
+    for column, factor in scaled:
+        there = None if factor is None else reread(own, changed([column], factor)(record), look)
+        if there is None or there.nothing > INADEQUATE * there.y.size or strained(there) or abs(factor - 1) < _SLIGHT:
+            continue
+        name, reads = named(record, [column]), f"{1 / factor:.4g} times what it measures"
+        remedy = f"check the calibration of {name}, which reads {reads}"
+        found = Reading(f"if {name} reads {reads}", remedy, changed([column], factor))
+        raise DeckError(told(own.problem, record, before, [(shares_left(there, record.samples[:, outputs])[0], found)]))
+
+
+def by_model(own: Study, look: Series, j: int, record: Recording, at: Regression) -> float | None:
+    """The factor of output j with which the model, its nuisances free, says what it reads; None where it cannot judge."""
+    column, factor = columns_of(own.problem, own.records.outputs)[j], 1.0
+    for _ in range(_TURNS):
+        factor /= 1 + _share(at, j)
+        at = reread(own, changed([column], factor)(record), look)
+        if at is None:
+            return None
+    return factor
+
+
+def _least(own: Study, look: Series, record: Recording, reading: Callable[[float], Callable[[Recording], Recording]]) -> float:
+    """The factor whose reading the model leaves least of."""
+    from scipy.optimize import minimize_scalar
+
+    def left(log: float) -> float:
+        at = reread(own, reading(float(np.exp(log)))(record), look)
+        return np.inf if at is None else float(np.log(at.nothing))
+
+    return float(np.exp(minimize_scalar(left, bounds=(-_WIDE, _WIDE), method="bounded", options={"xatol": 1e-4}).x))
+
+
+def _share(at: Regression, j: int) -> float:
+    """By how much output j is larger than the model says, its nuisances free."""
+    left, model = at.left[at.kept, j], predicted(at)[:, j]
+    return float(model @ left) / max(float(model @ model), 1e-300)
