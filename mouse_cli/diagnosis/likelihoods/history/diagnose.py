@@ -46,9 +46,8 @@ def diagnose_records(problem: Problem, notice: Notice, choices: Choices, own: St
     decision = _with_shape(own, best, decided(ranking, searched, ratio(proof), own.look.free, known is None))
     kind = decision.kind
     told = best if kind in (NAMED, ONE_OF) else None
-    strange = odd(best or baseline, own.data) if kind == UNKNOWN and not searched.otherwise else None
-    cautions = decision.cautions + remedies(told if decision.rest is None else None, own) + (() if strange is None else (strange.said(found.outputs),))
-    cautions += (searched.otherwise,) if searched.otherwise else ()
+    cautions = decision.cautions + remedies(told if decision.rest is None else None, own)
+    cautions += (searched.otherwise,) if searched.otherwise else _strange(own, best or baseline, kind)
     dof = max(int(baseline.dof), 1)
     return RecordDiagnosis(
         problem=problem,
@@ -77,6 +76,12 @@ def _with_shape(own: Study, best: Fit | None, decision: Decision) -> Decision:
         return decision
     at = Regression(own.spectrum, best.hypothesis.placed(best.hypothesis.parts[0].place), best.x)
     return replace(decision, rest=replace(decision.rest, there=freely(at) > _THERE))
+
+
+def _strange(own: Study, one: Fit, kind: str) -> tuple[str, ...]:
+    """That one recording is at odds with the others, where none of it has a name."""
+    found = odd(one, own.data) if kind == UNKNOWN else None
+    return () if found is None else (found.said(own.records.outputs),)
 
 
 def _finer(own: Study, found: Ranking) -> Ranking:
