@@ -200,6 +200,7 @@ LONG: dict[str, tuple[str, ...]] = {
     "reference/test_narrow_priors.py": ("test_a_parameter_beyond_its_prior_is_said_beside_what_would_explain_it",),
     "reference/test_partial_bed.py": (
         "test_a_bed_under_a_part_is_named_with_its_extent[0.6-1.0]", "test_a_bed_between_two_places_is_named_with_both[0.3-0.65]",
+        "test_a_bed_that_is_lost_in_part_is_named_with_its_extent[0.55-0.85]",
     ),
     "reference/test_plain_fields.py": (
         "test_where_there_is_no_bed_one_is_only_added[truth0--20--2]",
@@ -218,6 +219,9 @@ LONG: dict[str, tuple[str, ...]] = {
     ),
     "reference/test_record_changed.py": ("test_when_it_changed_is_told_with_what_did[2.5]",),
     "reference/test_record_disturbed.py": ("test_no_law_is_sought_for_it_and_once_stated_there_is_nothing_to_say",),
+    "reference/test_record_kinks_and_powers.py": (
+        "test_a_cable_that_goes_slack", "test_damping_by_another_power_than_the_square",
+    ),
     "reference/test_record_beams.py": (
         "test_a_sound_cantilever_lacks_nothing",
         "test_noise_of_the_force_that_shakes_modes_above_its_band_is_nothing_that_is_missing",

@@ -38,6 +38,10 @@ MODELS = {
         CANTILEVER + "    supports: {1: [TX, TY], 31: [TY]}\n    plane: XY\n",
         [(4, "TY"), (9, "TY"), (17, "TY"), (24, "TY")],
     ),
+    "bedded": (
+        CANTILEVER + "      - {id: 51-80, type: foundation, nodes: 1-31, ky: 3.0e+5}\n    plane: XY\n",
+        [(1, "TY"), (11, "TY"), (18, "TY"), (31, "TY")],
+    ),
     "free": (CANTILEVER + "    plane: XY\n", [(1, "TY"), (11, "TY"), (18, "TY"), (31, "TY")]),
     "portal": (
         f"""
@@ -262,7 +266,7 @@ def deck(name: str, folder) -> "Problem":  # noqa: F821
 
 _E = "parameters:\n  - {name: E, material: steel, property: E, sd: 3 %}\n"
 _PARAMETERS = dict.fromkeys(
-    ("cantilever", "girder", "free", "portal", "tee", "space", "tower", "frame", "weighed", "pinned"), _E
+    ("cantilever", "bedded", "girder", "free", "portal", "tee", "space", "tower", "frame", "weighed", "pinned"), _E
 )
 _PARAMETERS["laden"] = _E + "  - {name: tip, elements: 43, property: mass, sd: 30 %}\n"
 _PARAMETERS["frame"] = _E + "  - {name: load, elements: 41-44, property: nonstructural_mass, sd: 20 %}\n"
@@ -275,6 +279,7 @@ OWN = {
     "weighed": SUPPORTS,
     "pinned": {"support-restraint"},
     "girder": {"eccentric-bearing"},
+    "bedded": {"void"},
 }
 CASES = [(name, key) for name in MODELS for key in registry() if key in OWN.get(name, {key})]
 LONG = {  # structures whose like, a smaller one, has the same mechanisms, but for these

@@ -17,10 +17,10 @@ SENSORS = range(3, 29, 2)
 BED = 3000 * EI / LENGTH**4  # N/m2
 
 
-def measured(bed: float, first: float, last: float, more: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+def measured(bed: float, first: float, last: float, more: float = 0.0, lost: bool = False) -> tuple[np.ndarray, np.ndarray]:
     """Hz (m,) and deflections (29, m) of inner nodes of 30 elements, each made of four Hermite elements here.
 
-    bed (N/m2) and `more` mass (kg/m) between two shares of the length.
+    bed (N/m2) and `more` mass (kg/m) between two shares of the length; lost: a bed all along but there.
     """
     n = 120
     l = LENGTH / n
@@ -30,15 +30,17 @@ def measured(bed: float, first: float, last: float, more: float = 0.0) -> tuple[
     K, M = np.zeros((2, 2 * n + 2, 2 * n + 2))
     for e in range(n):
         at, within = slice(2 * e, 2 * e + 4), first <= (e + 0.5) * l / LENGTH <= last
-        K[at, at] += k + bed * m * within
+        K[at, at] += k + bed * m * (within != lost)
         M[at, at] += (MASS + more * within) * m
     inner = slice(2, 2 * n)
     lam, X = eigh(K[inner, inner], M[inner, inner], subset_by_index=[0, MODES - 1])
     return np.sqrt(lam) / (2 * np.pi), X[6::8]  # node 1 of 30 is the fourth of 120
 
 
-def clamped(hz: np.ndarray, shapes: np.ndarray):
-    """A clamped beam that has nothing of it."""
+def clamped(hz: np.ndarray, shapes: np.ndarray, bed: float = 0.0):
+    """A clamped beam that has nothing of it, or a bed all along."""
+    under = f"\n      - {{id: 31-60, type: foundation, nodes: 1-31, ky: {bed}}}" if bed else ""
+    factor = "\n  - {name: bed, elements: 31-60, property: ky, factor: true, sd: 8 %}" if bed else ""
     rng = np.random.default_rng(2)
     shapes = shapes[[n - 2 for n in SENSORS]] / np.abs(shapes).max(axis=0)
     shapes = shapes + 0.01 * rng.standard_normal(shapes.shape)
@@ -49,11 +51,11 @@ model:
   structure:
     nodes: {{line: {{from: 1, to: 31, start: [0, 0], end: [{LENGTH}, 0]}}}}
     elements:
-      - {{id: 1-30, type: beam, nodes: 1-31, E: 2.1e11, nu: 0.3, density: 7850, A: 4.0e-4, Iz: 1.0e-8}}
+      - {{id: 1-30, type: beam, nodes: 1-31, E: 2.1e11, nu: 0.3, density: 7850, A: 4.0e-4, Iz: 1.0e-8}}{under}
     supports: {{1: all, 31: all}}
     plane: XY
 parameters:
-  - {{name: E, elements: 1-30, property: E, sd: 3 %}}
+  - {{name: E, elements: 1-30, property: E, sd: 3 %}}{factor}
 test:
   modes:
     frequency: [{", ".join(f"{value:.6f}" for value in hz)}]
@@ -92,6 +94,17 @@ def test_a_bed_between_two_places_is_named_with_both(first, last):
     assert abs(before.value * (1 - covered.value) - first) < 0.02
     assert abs(found.best.causes[0].site.position[0] / LENGTH - (first + last) / 2) < 0.02
     assert abs(stiffness.value - BED) < 3 * stiffness.sd
+    assert found.extended_result.status.key == "converged" and not found.extended_result.rejected
+
+
+@pytest.mark.parametrize(("first", "last"), proofs([(0.55, 0.85), (0.0, 0.3)], (0.55, 0.85)))
+def test_a_bed_that_is_lost_in_part_is_named_with_its_extent(first, last):
+    """A void, a free span: it was a change without a name."""
+    found = diagnose(clamped(*measured(BED, first, last, lost=True), BED))
+    assert (found.kind, found.best.group) == (NAMED, "void")
+    lost, covered, *_ = found.best.causes[0].sizes
+    assert lost.value > 0.8 and abs(covered.value - (last - first)) < 0.05
+    assert abs(found.best.causes[0].site.position[0] / LENGTH - (first + last) / 2) < 0.03
     assert found.extended_result.status.key == "converged" and not found.extended_result.rejected
 
 

@@ -8,6 +8,7 @@ from click.testing import CliRunner
 from two_masses import record
 
 from mouse_cli.cli.main import cli
+from mouse_cli.terms.laws import registry
 
 CABLE, OPENING = 1.0e4, 2.5e-3  # N/m, m
 CUBIC = 2.0e2  # N s^3/m^3
@@ -46,3 +47,10 @@ def test_damping_by_another_power_than_the_square(tmp_path):
     assert force["value"] == pytest.approx(CUBIC, rel=0.1)
 
 
+def test_a_preloaded_contact_is_linear_until_it_opens():
+    """From rest, where its preload is balanced; of a spring that the model has it takes what is beyond, and no more."""
+    law, x, p = registry()["preload"], np.array([-3e-3, -1e-3, 0.0, 4e-3]), np.array([CABLE, OPENING])
+    pull = CABLE * np.array([-OPENING, -1e-3, 0.0, 4e-3])
+    force = lambda variant, x: law.force(x, 0 * x, None, p, **law.variants[variant])[0]
+    assert force(0, x) == pytest.approx(pull) and force(1, -x) == pytest.approx(-pull)
+    assert force(2, x) == pytest.approx(pull - CABLE * x) and force(3, -x) == pytest.approx(CABLE * x - pull)
