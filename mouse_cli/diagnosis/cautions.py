@@ -6,10 +6,11 @@ from math import erfc, sqrt
 import numpy as np
 
 from mouse_cli.diagnosis.effects.element_sets import text
+from mouse_cli.diagnosis.explained import acting
 from mouse_cli.diagnosis.gates import GATE
 from mouse_cli.diagnosis.likelihoods.modal.accuracy import Doubt, scatter
 from mouse_cli.diagnosis.likelihoods.modal.mixed import mixed
-from mouse_cli.diagnosis.likelihoods.modal.repeated import repeated
+from mouse_cli.diagnosis.likelihoods.modal.repeated import exchanged, repeated
 from mouse_cli.diagnosis.likelihoods.modal.scales import span
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.diagnosis.search.grounded import one_tie
@@ -25,6 +26,9 @@ _FAR = 0.1  # of the span, between the place of a cause and the nearest one that
 _PLAIN = 0.05  # probability of a misfit as large as that of the best single place, from which on it may be the place
 _BEYOND = 0.01  # p-value of the shifts of all parameters below which those that are beyond their priors are named
 _SMALL = 0.2  # share of all places that the 90 % region may hold to point anywhere
+_CHECK = "Check the value, or state a larger sd."
+_LEADING = 8  # explanations, by their evidence, that are asked for a parameter that strains them
+_AGAIN = 1.2  # times the stated scatter, up to which a test is as accurate as it says
 _CERTAIN = ("is less accurate than stated in the deck", "has an error")  # of all entries of a kind, and of one mode
 _POSSIBLE = ("may be less accurate than stated in the deck", "may have an error")
 _TOLD = {
@@ -57,8 +61,31 @@ def cautions(ranking: Ranking, verdict: Verdict, location: Location | None) -> t
     """The sentences, each whole; none where nothing is missing."""
     if verdict.kind == NOTHING:
         return ()
-    doubted = *_repeated(ranking, verdict), *_errors(ranking, verdict), *_noise(ranking), *_narrow(ranking)
-    return (*verdict.reasons, *doubted, *_tied(ranking, verdict), *_refuted(verdict), *_elsewhere(verdict, location))
+    table = *_exchanged(ranking), *_twice(ranking)
+    doubted = *_repeated(ranking, verdict), *_errors(ranking, verdict), *_noise(ranking), *_narrow(ranking, verdict)
+    return (*table, *verdict.reasons, *doubted, *_tied(ranking, verdict), *_refuted(verdict), *_elsewhere(verdict, location))
+
+
+def _exchanged(ranking: Ranking) -> Iterator[str]:
+    """Two columns of the table of shapes that stand in the other's place."""
+    number = ranking.baseline.data.test.number
+    for i, j in exchanged(ranking.baseline):
+        yield (
+            f"The shapes of modes {number[i]} and {number[j]} are each that of the other mode of the model, beside frequencies "
+            "that are near their own: exchange the two columns of shapes if the table has them in the wrong order, and diagnose "
+            "again. Nothing else that is said here holds before that is settled."
+        )
+
+
+def _twice(ranking: Ranking) -> Iterator[str]:
+    """A mode that a table has twice."""
+    number = ranking.baseline.data.test.number
+    for i, j in repeated(ranking.baseline, twice=True):
+        yield (
+            f"Modes {number[i]} and {number[j]} have one shape at about one frequency, and the model has no such two modes: one "
+            "mode was probably identified twice, and stands for an oscillator, or for something else with a mode of its own. Give "
+            "it once, and diagnose again."
+        )
 
 
 def _repeated(ranking: Ranking, verdict: Verdict) -> Iterator[str]:
@@ -109,10 +136,9 @@ def _noise(ranking: Ranking) -> Iterator[str]:
     """What the accuracies would have to be for the best explanation to be right."""
     if ranking.noise_scale > NOISY:
         best = min((one for one in ranking.fits if one.dof > 0), key=lambda one: one.misfit / one.dof)
-        named = zip(("frequencies", "shapes"), scatter(best), strict=True)
-        parts = " and ".join(f"{name} {factor:.2g} times" for name, factor in named if np.isfinite(factor))
-        left = sqrt(best.misfit / best.dof)
-        if left <= 1:
+        named = [each for each in zip(("frequencies", "shapes"), scatter(best), strict=True) if np.isfinite(each[1])]
+        parts, left = " and ".join(f"{name} {factor:.2g} times" for name, factor in named), sqrt(best.misfit / best.dof)
+        if max((factor for _, factor in named), default=left) <= _AGAIN:
             return
         parts = parts or f"{left:.2g} times"
         yield (
@@ -121,23 +147,36 @@ def _noise(ranking: Ranking) -> Iterator[str]:
         )
 
 
-def _narrow(ranking: Ranking) -> Iterator[str]:
-    """Where all that speaks against the model as it is are parameters further from their priors than chance allows."""
-    one = ranking.baseline
+def _narrow(ranking: Ranking, verdict: Verdict) -> Iterator[str]:
+    """Where all that speaks against the model as it is are parameters further from their priors than chance allows; or against it
+    with the fewest mechanisms of those that have most evidence, where none is named.
+    """
+    if said := _strained(ranking.baseline):
+        yield f"The model as it is explains the data {said}: if a prior may be too narrow, nothing need be missing. {_CHECK}"
+        return
+    if verdict.kind != UNKNOWN:
+        return
+    most = sorted((one for one in ranking.fits if one.recipes), key=lambda one: -one.log_evidence)[:_LEADING]
+    for one in sorted(most, key=lambda one: (len(one.recipes), -one.log_evidence)):
+        if said := _strained(one):
+            named = enumerated([recipe.candidate.title for recipe in one.recipes])
+            yield f"With {named} ({acting(one)}) the model explains the data {said}: a prior may be too narrow. {_CHECK}"
+            return
+
+
+def _strained(one: Fit) -> str:
+    """p-value of the data alone, and which parameters are too far from their priors; empty: they are not explained, or none is."""
     base, z = one.model.base, one.point.x[: one.model.k]
     off, p = shifts(one), upper_tail(one.misfit - z @ z, max(one.dof - len(z), 1))  # of the data alone
     chosen = [j for j, far in enumerate(off) if len(off) * erfc(abs(far) / sqrt(2)) < _BEYOND]
     if not chosen or p < GATE:
-        return
+        return ""
     prior, value = (base.parameters(at) for at in (np.zeros_like(z), z))
     parts = [
         f"'{base.problem.parameters[j].name}' at {value[j]:.4g} instead of {prior[j]:.4g} ({off[j]:+.1f} prior sd)"
         for j in chosen
     ]
-    yield (
-        f"The model as it is explains the data (p = {p:.2g}) with {enumerated(parts)}: if a prior may be too narrow, "
-        "nothing need be missing. Check the value, or state a larger sd."
-    )
+    return f"(p = {p:.2g}) with {enumerated(parts)}"
 
 
 def _tied(ranking: Ranking, verdict: Verdict) -> Iterator[str]:

@@ -67,8 +67,8 @@ def unrelated(problem: Problem, solution: EigenSolution, mode: int, ratio: float
     best = int(np.argmax(likeness))
     return DeckError.of(
         "MD331",
-        f"the shape measured for mode {test.number[mode]} is unrelated to the model's: |c t| / |x| is {ratio:.3g}, "
-        "at least 0.1 is expected",
+        f"the shape measured for mode {test.number[mode]} is unrelated to that of the mode of the model that it is "
+        f"paired with: |c t| / |x| is {ratio:.3g}, at least 0.1 is expected",
         problem.place(f"mode {test.number[mode]}"),
         note=f"it looks most like model mode {best + 1} (MAC {likeness[best]:.2f})",
         help="check the mode numbers and the order of the measured points; if these are right, the model lacks what makes this "

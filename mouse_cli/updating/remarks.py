@@ -116,7 +116,7 @@ def _places(result: Result) -> Iterator[Diagnostic]:
                 "MD506",
                 f"the shape measured for mode {test.number[i]} resembles model mode {best + 1} (MAC "
                 f"{likeness[i, best]:.2f}), but was compared with mode {mode + 1} (MAC {likeness[i, mode]:.2f})",
-                help="use --pairing mac",
+                help="pair them by their shapes: --pairing mac of `mouse run`, or pairing: mac under run",
             )
 
 

@@ -7,11 +7,12 @@ import pytest
 from scipy.linalg import eigh
 
 import mouse_cli
-from mouse_cli.diagnosis.cautions import _errors
+from mouse_cli.diagnosis.cautions import _errors, _exchanged, _twice
 from mouse_cli.diagnosis.likelihoods.modal.accuracy import Doubt
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.mixed import mixed
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
+from mouse_cli.diagnosis.likelihoods.modal.repeated import exchanged, repeated
 from mouse_cli.diagnosis.search.fit import fit
 from mouse_cli.model.diagnosis import NOTHING, UNKNOWN
 
@@ -62,6 +63,31 @@ def test_a_frequency_that_was_misread_is_no_physics(tmp_path):
     found = mouse_cli.diagnose(mouse_cli.read_deck(deck(tmp_path, {4: 1.03}, {})))
     assert found.kind == UNKNOWN and found.misstated == "frequency"
     assert any("the frequency of mode 4 does not agree" in caution for caution in found.cautions)
+
+
+def shape(n: int) -> np.ndarray:
+    """The beam's own mode n at the sensors, with its noise."""
+    own = np.sin(np.pi * n * (np.array(SENSORS) - 1) / 20)
+    return own + 0.01 * np.random.default_rng(n).standard_normal(len(own))
+
+
+@pytest.mark.parametrize(
+    ("frequency", "shapes", "columns", "twice"),
+    [
+        ({}, {}, [], []),
+        ({}, {3: shape(4), 4: shape(3)}, [(2, 3)], []),
+        ({4: 9 / 16 * 1.006}, {4: shape(3)}, [], [(2, 3)]),
+    ],
+    ids=["right", "exchanged", "twice"],
+)
+def test_columns_that_stand_in_the_place_of_others_are_told(tmp_path, frequency, shapes, columns, twice):
+    """Exchanged shapes were fields of axial force and of a spring, 45 % off what was left out; one mode twice an oscillator."""
+    problem = mouse_cli.read_deck(deck(tmp_path, frequency, shapes))
+    one = fit(Model(reduced(problem, problem.prior.mean)), np.zeros(0))
+    assert (exchanged(one), repeated(one, twice=True)) == (columns, twice)
+    ranking = SimpleNamespace(baseline=one)
+    assert [said.split(" are each")[0] for said in _exchanged(ranking)] == ["The shapes of modes 3 and 4"] * len(columns)
+    assert [said.split(" have one")[0] for said in _twice(ranking)] == ["Modes 3 and 4"] * len(twice)
 
 
 def test_a_shape_of_noise_is_no_physics(tmp_path):
@@ -143,8 +169,10 @@ def test_such_a_mode_is_not_said_to_be_false(tmp_path):
     other = fitted(deck(tmp_path, {}, {3: noise}))
     for each, said in ((one, "may be one of them all the same"), (other, "none that the structure can have")):
         doubted = SimpleNamespace(baseline=each, doubts=(Doubt("mode", 0.999, 0.5, (2,)),), noise_scale=1.0)
-        (sentence,) = _errors(doubted)
+        (sentence,) = _errors(doubted, SimpleNamespace(kind=NOTHING))
         assert said in sentence
+        (sentence,) = _errors(doubted, SimpleNamespace(kind=UNKNOWN))
+        assert said in sentence and ("Unless what is missing" in sentence) == (each is other)
 
 
 def test_scatter_does_not_make_any_shape(tmp_path):
