@@ -16,7 +16,7 @@ from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.diagnosis.search.grounded import one_tie
 from mouse_cli.diagnosis.search.rank import NOISY, Ranking
 from mouse_cli.diagnosis.verdict import Verdict, shifts
-from mouse_cli.model.diagnosis import NAMED, NOTHING, RIVAL, UNKNOWN, Location, Site
+from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, RIVAL, UNKNOWN, Location, Site
 from mouse_cli.model.groups import enumerated
 from mouse_cli.model.held import ElementGroup
 from mouse_cli.updating.chi_square import upper_tail
@@ -29,6 +29,7 @@ _SMALL = 0.2  # share of all places that the 90 % region may hold to point anywh
 _CHECK = "Check the value, or state a larger sd."
 _LEADING = 8  # explanations, by their evidence, that are asked for a parameter that strains them
 _AGAIN = 1.2  # times the stated scatter, up to which a test is as accurate as it says
+_OFFSET = "offset"  # group of masses that are not at their nodes
 _CERTAIN = ("is less accurate than stated in the deck", "has an error")  # of all entries of a kind, and of one mode
 _POSSIBLE = ("may be less accurate than stated in the deck", "may have an error")
 _TOLD = {
@@ -63,7 +64,8 @@ def cautions(ranking: Ranking, verdict: Verdict, location: Location | None) -> t
         return ()
     table = *_exchanged(ranking), *_twice(ranking)
     doubted = *_repeated(ranking, verdict), *_errors(ranking, verdict), *_noise(ranking), *_narrow(ranking, verdict)
-    return (*table, *verdict.reasons, *doubted, *_tied(ranking, verdict), *_refuted(verdict), *_elsewhere(verdict, location))
+    named = *_tied(ranking, verdict), *_centres(verdict), *_refuted(verdict), *_elsewhere(verdict, location)
+    return (*table, *verdict.reasons, *doubted, *named)
 
 
 def _exchanged(ranking: Ranking) -> Iterator[str]:
@@ -189,6 +191,19 @@ def _tied(ranking: Ranking, verdict: Verdict) -> Iterator[str]:
                 f"To the model {where[0]} and {where[1]} are the same tie to the ground, and count as one answer: inspect both "
                 "ends of the strut."
             )
+
+
+def _centres(verdict: Verdict) -> Iterator[str]:
+    """Floors whose masses are off their axes, on storeys that have their stiffness on theirs by definition."""
+    best = verdict.best if verdict.kind in (NAMED, ONE_OF) else None
+    if best is None or not any(recipe.candidate.group == _OFFSET for recipe in best.recipes):
+        return
+    mesh = best.model.base.problem.mesh
+    if mesh is not None and any(members.type == "storey" for members in mesh.elements):
+        yield (
+            "A test sees how far the centre of mass of a floor is from the centre of stiffness of its storeys, not which of them "
+            "is off: columns or walls that are stiffer on one side do the same as masses that are off their nodes. Inspect both."
+        )
 
 
 def _refuted(verdict: Verdict) -> Iterator[str]:

@@ -9,6 +9,7 @@ from hermite_beams import Truth, deck
 from made_up_rankings import made_up, ranked
 
 from mouse_cli.diagnosis import verdict as decided
+from mouse_cli.diagnosis.cautions import _centres
 from mouse_cli.diagnosis.effects.change import PLACE
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.search.study import Study
@@ -484,3 +485,16 @@ def test_panels_of_a_brace_are_its_place(proofs, first, others, kind):
     one = _among_sites(pair(first), [(pair(ids), share) for ids, share in others], "brace", _MESH)
     found = judged(one, BARE, p=(0.99, 0.01))
     assert (found.kind, found.placed) == (kind, False)
+
+
+@pytest.mark.parametrize(("kind", "group", "type", "count"), [
+    ("named", "offset", "storey", 1), ("one-of", "offset", "storey", 1), ("unknown", "offset", "storey", 0),
+    ("named", "mass", "storey", 0), ("named", "offset", "beam", 0),
+])  # fmt: skip
+def test_masses_off_their_nodes_may_be_storeys_off_their_axes(kind, group, type, count):
+    """With storeys whose columns were stiffer on one side, masses were named, P > 0.999, which were where the deck has them."""
+    elements = [SimpleNamespace(type="mass"), SimpleNamespace(type=type)]
+    base = SimpleNamespace(problem=SimpleNamespace(mesh=SimpleNamespace(elements=elements)))
+    recipes = [SimpleNamespace(candidate=SimpleNamespace(group=group))]
+    best = SimpleNamespace(recipes=recipes, model=SimpleNamespace(base=base))
+    assert len([*_centres(SimpleNamespace(kind=kind, best=best))]) == count

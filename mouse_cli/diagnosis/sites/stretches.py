@@ -13,6 +13,7 @@ from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
 
 _STARTS = 8  # places to begin from on a line
+_WHOLE = 0.9  # of a line, from which on a stretch is called all of it
 _WIDEST = 0.6  # of a line that is all of the structure: beyond, a stretch is the modulus of all
 
 
@@ -50,6 +51,7 @@ def _recipe(candidate: Candidate, line: Line, share: float, widest: float, stiff
     d = Unknown("stiffness added" if stiffer else "flexibility added", "1", 0.02, 3.0)
     w = Unknown("width over length", "1", 0.05, widest)
     x = Unknown(PLACE, "m", 0.0, L, log=False)
+    plane = ", in both planes" if both else f", local {'yz'[line.bars.plane[line.members[0]]]}" if bends_both_ways(line) else ""
 
     def change(values: np.ndarray) -> Change:
         touched, a, b = covered(line, *stretch(line, values))
@@ -60,8 +62,8 @@ def _recipe(candidate: Candidate, line: Line, share: float, widest: float, stiff
 
     def site(values: np.ndarray) -> Site:
         here = line.site(sum(stretch(line, values)) / 2)  # the middle of what is covered: less than the width at an end
-        text = f"{values[1]:.2g} of the length, about {here.text}" + (", in both planes" if both else "")
-        return Site(here.kind, here.ids, here.position, text)
+        part = "the whole length" if values[1] > _WHOLE else f"{values[1]:.2g} of the length"
+        return Site(here.kind, here.ids, here.position, f"{part}, about {here.text}{plane}")
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         factor = 1 + values[0] if stiffer else 1 / (1 + values[0])
