@@ -12,11 +12,13 @@ from mouse_cli.diagnosis.likelihoods.configurations.model import Arranged, Toget
 from mouse_cli.diagnosis.likelihoods.configurations.predict import predicted
 from mouse_cli.diagnosis.likelihoods.configurations.shared import Errors
 from mouse_cli.diagnosis.likelihoods.configurations.shared import frequencies as of_frequencies
+from mouse_cli.diagnosis.likelihoods.configurations.sought import Sought
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.diagnosis.search.fit import fit
 from mouse_cli.diagnosis.search.rank import rank
 from mouse_cli.formats import read_deck
+from mouse_cli.model.diagnosis import Choices
 
 N, K, MASS, ITEM = 8, 2.0e5, 1.0, 0.12
 COMMON = np.array([0.3, -0.25, 0.2, 0.1, -0.35]) / 100  # what "theory" errs in ln f, in every arrangement alike
@@ -284,3 +286,12 @@ def test_a_step_that_leaves_too_much_is_no_name(tmp_path):
     _, found = asked(tmp_path, *decks, "--candidates", "ground-spring")
     assert found["verdict"]["kind"] == "unknown"
     assert found["turns"] and all(cause["kind"] != "named" for cause in found["verdict"]["causes"])
+
+
+def test_what_lasts_is_no_change():
+    """The mass of sensors was in four of seven that led, between two tests of one tower."""
+    every, some = Sought(Choices(), None), Sought(Choices(("sensor-mass", "mass")), None)
+    assert set(every.known(False)) == set(registry())
+    lasting = {"sensor-mass", "gravity", "timoshenko", "taper"}
+    assert not lasting & set(every.known(True)) and {"mass", "crack", "brace"} < set(every.known(True))
+    assert set(some.known(True)) == {"sensor-mass", "mass"}

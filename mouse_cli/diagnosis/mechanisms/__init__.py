@@ -15,7 +15,8 @@ class Candidate:
     """key; title: in words; group: of candidates that data can hardly tell apart; meaning: what it is, for the manual.
 
     recipes(model): where it can act in a model and how; empty where it has no meaning. why(model): why it has no site in it.
-    plain: key of the mechanism that it is where its further size vanishes.
+    plain: key of the mechanism that it is where its further size vanishes. lasting: whether it is of the theory, or of how a
+    structure is built, which is the same before and after a change.
     """
 
     key: str
@@ -25,6 +26,7 @@ class Candidate:
     recipes: Callable[[Reduced, "Candidate"], list[Recipe]]
     why: Callable[[Reduced], str] = lambda model: NO_SITE
     plain: str = ""
+    lasting: bool = False
 
     def __reduce__(self):
         """By its key: another process has the same candidates."""

@@ -74,4 +74,5 @@ CANDIDATE = Candidate(
     "of a point beside a support, on an arm across the direction in which it holds; the further off, the more it resists turning",
     recipes,
     turning,
+    lasting=True,
 )

@@ -12,4 +12,5 @@ CANDIDATE = Candidate(
     "gravity",
     "the weight above each storey or column pushes it further over as it sways (P-delta): less stiffness, most of it below",
     self_weight,
+    lasting=True,
 )

@@ -96,4 +96,5 @@ CANDIDATE = Candidate(
     "the centre of mass of a section is not the point about which it twists: bending and torsion come in pairs of coupled modes",
     recipes,
     bars,
+    lasting=True,
 )

@@ -25,4 +25,5 @@ CANDIDATE = Candidate(
     "means heavy parts far from the axis",
     recipes,
     bars,
+    lasting=True,
 )

@@ -45,4 +45,5 @@ CANDIDATE = Candidate(
     "two bars alone meet, such as elbows of a pipe that ovalise",
     recipes,
     reasons.connections,
+    lasting=True,
 )

@@ -81,4 +81,5 @@ CANDIDATE = Candidate(
     "structure, and 20 kg where the deck declares its units",
     recipes,
     _why,
+    lasting=True,
 )

@@ -16,4 +16,5 @@ CANDIDATE = Candidate(
     "shear flexibility of bars (Timoshenko): frequencies of high modes fall with the square of their wave number, low ones stay",
     partial(sheared, turning=False),
     bars,
+    lasting=True,
 )

@@ -77,4 +77,5 @@ CANDIDATE = Candidate(
     "and mass change linearly, the mass by 0.3 to 1 times as much, as in one section (b h and b h^3)",
     recipes,
     bars,
+    lasting=True,
 )

@@ -16,4 +16,5 @@ CANDIDATE = Candidate(
     "Timoshenko's bar: shear flexibility together with the inertia of turning sections, which always come together",
     partial(sheared, turning=True),
     bars,
+    lasting=True,
 )

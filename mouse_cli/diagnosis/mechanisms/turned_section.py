@@ -16,4 +16,5 @@ CANDIDATE = Candidate(
     "K + K_e(Iz, Iy) - K_e(Iy, Iz)",
     of_turned,
     oblong,
+    lasting=True,
 )

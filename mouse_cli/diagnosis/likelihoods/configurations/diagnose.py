@@ -234,9 +234,8 @@ def _state(fitted: Decks, unseen: Decks, sought: Sought, last: State | None = No
         untried = () if last is None else last.ranking.untried
         return State(fitted, unseen, replace(ranking(none, [none]), untried=untried), _predicted(none, unseen), tests)
     causes, again = sought.choices.causes if changed else 1, replace(fitted).model
-    found = rank(
-        fitted.arranged, sought.known, causes, by_leading, kind=Together, last=changed, jobs=sought.choices.jobs, again=again
-    )
+    known, jobs = sought.known(changed), sought.choices.jobs
+    found = rank(fitted.arranged, known, causes, by_leading, kind=Together, last=changed, jobs=jobs, again=again)
     return State(fitted, unseen, found, _predicted(none, unseen), tests)
 
 

@@ -14,10 +14,11 @@ class Sought:
     choices: Choices
     before: Before | None
 
-    @property
-    def known(self) -> dict[str, Candidate] | None:
-        """Candidates by key; None: all."""
-        return None if self.choices.candidates is None else {key: registry()[key] for key in self.choices.candidates}
+    def known(self, changed: bool) -> dict[str, Candidate]:
+        """Candidates by key: those that were chosen, or all; of what may have changed between tests without those that last."""
+        if self.choices.candidates is not None:
+            return {key: registry()[key] for key in self.choices.candidates}
+        return {key: one for key, one in registry().items() if not (changed and one.lasting)}
 
     @property
     def refused(self) -> str:
