@@ -11,6 +11,7 @@ from mouse_cli.diagnosis.likelihoods.history.order import (
     begun_again,
     elsewhere,
     from_mean,
+    harder,
     others_there,
     varied,
     where,
@@ -233,8 +234,8 @@ def _other(study: Study, pair: Fit, tried: list[tuple[str, str]]) -> Fit | None:
 
 
 def _again(study: Study, singles: list[Fit], order: list[Start], tried: list[Start]) -> list[Fit]:
-    """The laws that come nearest with nuisances at their mean, then other laws at their places, then each of them at other places,
-    then the nearest from other sizes, until the best is adequate.
+    """The laws that come nearest with nuisances at their mean, then harder stops, other laws at their places, each of them at other
+    places, and the nearest from other sizes, until the best is adequate.
 
     What a first look put far from the prior may have been given up behind a law that is not the true one; the true law may be
     behind those of its group that are like it, and the true place behind others, where nuisances help.
@@ -244,6 +245,7 @@ def _again(study: Study, singles: list[Fit], order: list[Start], tried: list[Sta
 
     def turns() -> Iterator[list[tuple[Start, float]]]:
         yield from ([(from_mean(one), np.inf)] for one in nearest)
+        yield [(start, np.inf) for start in harder(order)]
         for place in dict.fromkeys(where(one)[1] for one in nearest):
             yield [(start, np.inf) for start in others_there(order, tried, place)]
         for law in dict.fromkeys(one.hypothesis.law.key for one in nearest):
