@@ -92,7 +92,8 @@ class RecordDiagnosis(Diagnosis):
     """The answer of `diagnose` for recordings; `result` is None: there is no modal test.
 
     channels, sd (s,): outputs and the accuracy taken for them; inputs: names. scores: of held-out records. noise: that which the
-    answer rests on, where the accuracy of the channels is not all. fitted: titles of what was fitted. inputs_held: description.
+    answer rests on, where the accuracy of the channels is not all. fitted: titles of what was fitted. outside: whether what is told
+    in `cautions` is no law of the library, so that none was sought.
     """
 
     channels: tuple[str, ...] = ()
@@ -105,6 +106,7 @@ class RecordDiagnosis(Diagnosis):
     noise: Noise | None = None
     trace: Trace | None = None
     surface: Surface | None = None
+    outside: bool = False
     after: ClassVar[str] = WITH_CAUSE
 
     @property

@@ -195,6 +195,8 @@ def _separating(found: Diagnosis) -> str:
 
 def _unknown(found: Diagnosis) -> tuple[str, ...]:
     """No probability is given: none is of a hypothesis that explains the data."""
+    if isinstance(found, RecordDiagnosis) and found.outside:
+        return ("The model does not explain the records, and what follows does, which is no law of the library.",)
     if found.misstated:
         first = (
             "Model and test disagree, and an error of the test is more probable than that it is as accurate as stated, unless what "
