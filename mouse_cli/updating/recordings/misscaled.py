@@ -32,8 +32,12 @@ _THOUGHT = 0.5  # of what is left, that a corner leaves in closed form to be tho
 
 
 def check_coupling(own: Study, look: Series, at: Regression, before: float) -> None:
-    """Raise DeckError (MD457) where outputs that lose what is slow explain a record, and as they are read they do not."""
-    slow = coupled(at) if at.nothing > INADEQUATE * at.y.size else None
+    """Raise DeckError (MD457) where outputs that lose what is slow explain a record, and as they are read they do not.
+
+    Of masses that nothing holds a dashpot to the ground does the same; free decays have no force that is not filtered.
+    """
+    forced = not (look.slow or look.free)
+    slow = coupled(at) if forced and at.nothing > INADEQUATE * at.y.size else None
     if slow is None or slow.left > _THOUGHT * at.nothing:
         return
     record, _ = record_of(own, look)
