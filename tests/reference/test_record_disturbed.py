@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 from scipy.signal import lsim
-from two_masses import DECK, K
+from two_masses import DECK, K, linear, record
 
 from mouse_cli.cli.main import cli
 from mouse_cli.formats import read_deck
-from mouse_cli.updating.recordings.disturbed import disturbed
+from mouse_cli.updating.recordings.disturbed import disturbed, unmeasured
 from mouse_cli.updating.recordings.records import records
 from mouse_cli.updating.recordings.study import fitted, study
 from mouse_cli.updating.recordings.tone import tone
@@ -88,3 +88,13 @@ def test_a_tone_is_steady_throughout(tmp_path, motor, stiffer):
     assert (found is not None) == (motor > 0)
     if found is not None:
         assert found.hz == pytest.approx(MOTOR, abs=0.005) and found.share > 0.5
+
+
+@pytest.mark.parametrize("law", [False, True], ids=["unmeasured force", "cubic spring"])
+def test_a_loud_force_that_nobody_measured_is_said_to_be_one(tmp_path, law):
+    """Too loud to pass for noise, it was friction that was refuted; a law, which follows from the motion, is none."""
+    of = (lambda u, v: 2e9 * (u[1] - u[0]) ** 3 * np.array([-1.0, 1.0])) if law else linear
+    problem = read_deck(record(tmp_path, of, disturbance=0.0 if law else 12.0))
+    own = study(problem, records(problem))
+    said = unmeasured(own, fitted(own, None))
+    assert said == "" if law else said.startswith("What the model leaves (") and "coherent with no measured force" in said

@@ -11,6 +11,7 @@ import numpy as np
 from mouse_cli.updating.recordings.adequacy import adequate
 from mouse_cli.updating.recordings.disturbance import Disturbance
 from mouse_cli.updating.recordings.fit import Fit
+from mouse_cli.updating.recordings.noise import noise
 from mouse_cli.updating.recordings.study import Study, fitted, resonances
 
 _MAINS = (50.0, 60.0, 50.0 / 3)  # Hz: the grids, and railways of central Europe
@@ -31,6 +32,23 @@ def disturbed(own: Study, baseline: Fit) -> str:
         if found is not None and adequate(found):
             return _said(each)
     return ""
+
+
+def unmeasured(own: Study, baseline: Fit) -> str:
+    """What to do about what the model leaves, where it is too much for noise of a record and yet has all that noise has; empty: it
+    has not.
+    """
+    found = noise(own.spectrum, baseline.hypothesis, own.places, baseline.x, loud=np.inf)
+    if found is None:
+        return ""
+    share = 100 * found.size / own.spectrum.series.measured.std(axis=0)
+    grows = "" if found.grows != found.grows else "does not grow with the motion, "
+    return (
+        f"What the model leaves ({share.min():.2g} to {share.max():.2g} % of an output) is coherent with no measured force, {grows}"
+        f"and no law at any site takes more than {100 * found.explained:.2g} % of it: a force that nobody measured leaves that "
+        "(traffic, wind, a machine), and so may a law that is in no library. Measure that force, stop it, or excite more; nothing "
+        "can be said of the structure before."
+    )
 
 
 def _likely(own: Study, baseline: Fit) -> list[Disturbance]:

@@ -26,13 +26,17 @@ _STRETCHES = 16
 _BINS = 8  # of motion and velocity, of a force whose law is free
 
 
-def noise(spectrum: Spectrum, base: Hypothesis, places: list[Place], begun: np.ndarray | None = None) -> Noise | None:
-    """The noise that is left beside the laws of `base`, at its x (k,); None where it follows from the motion."""
+def noise(
+    spectrum: Spectrum, base: Hypothesis, places: list[Place], begun: np.ndarray | None = None, loud: float = LOUD
+) -> Noise | None:
+    """The noise that is left beside the laws of `base`, at its x (k,); None where it follows from the motion, or is a larger share
+    of an output than `loud`.
+    """
     look = lambda spectrum, place: Regression(spectrum, base.placed(place), begun)
     at = look(spectrum, places[0])
     left, series = at.left, spectrum.series
     size = np.sqrt((left[at.kept] ** 2).mean(axis=0))
-    if (size * series.sd > LOUD * series.measured.std(axis=0)).any():
+    if (size * series.sd > loud * series.measured.std(axis=0)).any():
         return None
     weights, count, effective = whitening(spectrum, left)
     if count < _LEAST or coherent(series.force[at.kept], left[at.kept]) > _FOLLOWS or _scaled(at) > _FOLLOWS:

@@ -65,7 +65,7 @@ def diagnose_records(problem: Problem, notice: Notice, choices: Choices, own: St
         scores=proof,
         trace=trace(own, baseline, best if kind != NOTHING else None),
         noise=searched.noise,
-        outside=bool(searched.otherwise),
+        outside=bool(searched.otherwise) and not searched.fits and kind == UNKNOWN,
         surface=None if told is None else surface(own, told),
         extended=None if told is None else extended(problem, told),
     )

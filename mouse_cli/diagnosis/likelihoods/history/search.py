@@ -25,7 +25,7 @@ from mouse_cli.updating.recordings.adequacy import adequate, innovation, missing
 from mouse_cli.updating.recordings.at_odds import odd
 from mouse_cli.updating.recordings.changed import changed
 from mouse_cli.updating.recordings.channels import Misreading, misreadings
-from mouse_cli.updating.recordings.disturbed import disturbed
+from mouse_cli.updating.recordings.disturbed import disturbed, unmeasured
 from mouse_cli.updating.recordings.fit import Fit
 from mouse_cli.updating.recordings.misread import misread
 from mouse_cli.updating.recordings.mistakes import check
@@ -55,7 +55,7 @@ class Weighed:
 
     noise: what is left beside the explanation `beside`, where that is more than the accuracy of the channels and yet noise.
     dropped: keys of laws that were fitted and that the records cannot show, with the reason; they are not among the fits.
-    otherwise: what explains the records, though no law does, so that none was sought: a sentence.
+    otherwise: what explains the records, though no law does: a sentence.
     """
 
     baseline: Fit
@@ -104,7 +104,8 @@ def weighed(study: Study, notice: Notice, known: list[Law] | None = None, causes
         found = undamped(study, found + shown(study, _pairs(study, notice, known, found), dropped), dropped)
         best = min(found, key=innovation)
         quiet = None if adequate(best) else _left(study, best)
-    return Weighed(baseline, found, quiet, None if quiet is None else best, tuple(dropped.items()))
+    said = unmeasured(study, baseline) if innovation(best) > _TAKEN * innovation(baseline) else ""
+    return Weighed(baseline, found, quiet, None if quiet is None else best, tuple(dropped.items()), said)
 
 
 def _left(study: Study, one: Fit) -> Noise | None:
