@@ -16,7 +16,7 @@ class Candidate:
 
     recipes(model): where it can act in a model and how; empty where it has no meaning. why(model): why it has no site in it.
     plain: key of the mechanism that it is where its further size vanishes. lasting: whether it is of the theory, or of how a
-    structure is built, which is the same before and after a change.
+    structure is built, which is the same before and after a change. between: whether it is one of a change alone.
     """
 
     key: str
@@ -27,6 +27,7 @@ class Candidate:
     why: Callable[[Reduced], str] = lambda model: NO_SITE
     plain: str = ""
     lasting: bool = False
+    between: bool = False
 
     def __reduce__(self):
         """By its key: another process has the same candidates."""

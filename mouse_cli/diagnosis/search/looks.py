@@ -45,7 +45,7 @@ class Looks:
         self.model, self.k, self.kind = model, model.L.shape[1], kind
         self.begun = self if begun is None else begun
         self.centres = Centres()
-        self.known = registry() if known is None else known
+        self.known = {key: one for key, one in registry().items() if not one.between} if known is None else known
         self._made: dict[str, list[Recipe]] = {}
         self._looked: dict[tuple, list[tuple[float, int, np.ndarray]]] = {}
         self._following: dict[tuple, tuple[np.ndarray, np.ndarray]] = {}

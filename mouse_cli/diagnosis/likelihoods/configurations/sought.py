@@ -15,10 +15,12 @@ class Sought:
     before: Before | None
 
     def known(self, changed: bool) -> dict[str, Candidate]:
-        """Candidates by key: those that were chosen, or all; of what may have changed between tests without those that last."""
+        """Candidates by key: those that were chosen, or all; of what may have changed between tests without those that last, else
+        without those of a change alone.
+        """
         if self.choices.candidates is not None:
             return {key: registry()[key] for key in self.choices.candidates}
-        return {key: one for key, one in registry().items() if not (changed and one.lasting)}
+        return {key: one for key, one in registry().items() if not (one.lasting if changed else one.between)}
 
     @property
     def refused(self) -> str:
