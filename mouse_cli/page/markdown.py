@@ -79,7 +79,7 @@ def _field(document: Part) -> Iterator[str]:
     chosen, others = significant(found)
     rows = [(verbatim(name), value, sd) for name, value, sd in map(words_of(found), chosen)]
     left = f"; {_counted(others, 'site')} with negligible values left out" if others else ""
-    yield from _folded_table(f"{title(found)}{left}", ("site", "value", "sd"), rows, "site", _MOST)
+    yield from _folded_table(f"{escaped(title(found))}{left}", ("site", "value", "sd"), rows, "site", _MOST)
 
 
 def _untried(document: Part) -> Iterator[str]:

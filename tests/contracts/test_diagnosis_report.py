@@ -248,7 +248,9 @@ def test_what_explains_a_test_that_is_right_is_told_beside_an_error_of_it():
     words = f"If the test is as accurate as stated, {best.title} at"
     assert words in _told(at_fault) and "goodness of fit p = 0.20." in _told(at_fault)
     worse = replace(at_fault, explanations=(none, replace(fitting, p=1e-4)))
-    assert words not in _told(worse) and "No candidate does better than none at all." in _told(worse)
+    assert words not in _told(worse) and f"No candidate is adequate. The nearest, {best.title}, has" in _told(worse)
+    idle = replace(at_fault, explanations=(none, replace(fitting, log_evidence=none.log_evidence - 1.0)))
+    assert "No candidate does better than none at all." in _told(idle)
 
 
 def test_no_name_without_a_verdict():
