@@ -17,7 +17,6 @@ from mouse_cli.model.diagnosis import (
     NAMED,
     NOTHING,
     ONE_OF,
-    RIVAL,
     UNKNOWN,
     HeldOut,
     Rest,
@@ -26,6 +25,7 @@ from mouse_cli.model.groups import leading
 from mouse_cli.updating.chi_square import upper_tail
 
 _BELIEVED = 0.5  # share of the stated accuracies in the leading explanation below which the test itself is the finding
+_LEADS = 0.5  # probability of what has no name, from which on it leads what has one
 _STANDS = 1e-6  # probability of no mechanism below which some mechanism acts, whatever errors the test has
 
 
@@ -39,7 +39,7 @@ class Verdict:
     """kind of answer; best: the fit that leads, with a mechanism; proof: how it predicts what was held out.
 
     refuted: groups that held-out data speak against. field: the leading rival without a name where the answer is UNKNOWN, with
-    field_proof, how it predicts what was held out; where it is ONE_OF, that rival if it is one of these. reasons: what forbids a
+    field_proof, how it predicts what was held out; where it is ONE_OF, that rival if it leads these. reasons: what forbids a
     name that evidence alone would give, in sentences. certain: what of `best` is named, where its companions are open. placed:
     whether its site is as sure as a name; what is named all the same is so within `panelled`.
     """
@@ -75,9 +75,9 @@ def judge(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:
 
 
 def _rival_field(ranking: Ranking) -> Fit | None:
-    """The most probable fit of physics without a name, where that is a rival of what has one; None: it is none."""
-    fields = [(p, one) for p, one in zip(ranking.probabilities.tolist(), ranking.fits, strict=True) if one.nameless and p > RIVAL]
-    return max(fields, key=lambda each: each[0])[1] if fields else None
+    """The most probable fit of physics without a name, where that is more probable than all that has one; None: it is not."""
+    fields = [(p, one) for p, one in zip(ranking.probabilities.tolist(), ranking.fits, strict=True) if one.nameless]
+    return max(fields, key=lambda each: each[0])[1] if sum(p for p, _ in fields) > _LEADS else None
 
 
 def _judged(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:

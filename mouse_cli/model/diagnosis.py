@@ -99,7 +99,7 @@ class Diagnosis(Shown):
     `gains`, `places` or `drift`. location, energy: what shapes alone say of the place.
     extended: the deck with the cause in it, and its update. frf, held_frf: functions of the model as it is, and with the cause
     where there is one, beside those fitted and those held out; damping: of the structure, as functions show it. field: physics
-    without a name where the answer is UNKNOWN, or a rival of what has one; rest: what a named mechanism leaves unexplained;
+    without a name where the answer is UNKNOWN, or where it leads what has one; rest: what a named mechanism leaves unexplained;
     untried: candidates left out; certain: what is named where its companions are open; placed: False of ONE_OF whose rivals are
     sites of one mechanism, and of what is named somewhere in a line of panels. loose: titles of mechanisms that are named with
     more certainty than where they act, and the posterior sd (m) of that.

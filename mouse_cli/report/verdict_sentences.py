@@ -22,7 +22,7 @@ from mouse_cli.report.sections._diagnosis_wording import (
     within,
 )
 
-_EVEN = 0.5  # probability of no mechanism up to which one is called likely, and of what has no name from which on it is described
+_EVEN = 0.5  # probability of no mechanism up to which one is called likely
 _SURE = 0.95  # probability of what acts beside a name, from which on its place alone is open
 
 
@@ -171,7 +171,7 @@ def _nameless(found: Diagnosis) -> tuple[str, ...]:
     """What has no name, where it is a rival."""
     if not found.nameless > RIVAL:
         return ()
-    acts = f" that {field_acts(found.field)}" if found.field is not None and found.nameless > _EVEN else ""
+    acts = "" if found.field is None else f" that {field_acts(found.field)}"
     return (f"a change without a name{acts} ({with_p(found.nameless)})",)
 
 
