@@ -25,7 +25,7 @@ from mouse_cli.model.groups import leading
 from mouse_cli.updating.chi_square import upper_tail
 
 _BELIEVED = 0.5  # share of the stated accuracies in the leading explanation below which the test itself is the finding
-_LEADS = 0.5  # probability of what has no name, from which on it leads what has one
+_MAJORITY = 0.5  # probability of what has no name, from which on it is more probable than all that has one
 _STANDS = 1e-6  # probability of no mechanism below which some mechanism acts, whatever errors the test has
 
 
@@ -77,7 +77,7 @@ def judge(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:
 def _rival_field(ranking: Ranking) -> Fit | None:
     """The most probable fit of physics without a name, where that is more probable than all that has one; None: it is not."""
     fields = [(p, one) for p, one in zip(ranking.probabilities.tolist(), ranking.fits, strict=True) if one.nameless]
-    return max(fields, key=lambda each: each[0])[1] if sum(p for p, _ in fields) > _LEADS else None
+    return max(fields, key=lambda each: each[0])[1] if sum(p for p, _ in fields) > _MAJORITY else None
 
 
 def _judged(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:

@@ -92,8 +92,8 @@ class RecordDiagnosis(Diagnosis):
     """The answer of `diagnose` for recordings; `result` is None: there is no modal test.
 
     channels, sd (s,): outputs and the accuracy taken for them; inputs: names. scores: of held-out records. noise: that which the
-    answer rests on, where the accuracy of the channels is not all. fitted: titles of what was fitted. outside: whether what is told
-    in `cautions` is no law of the library, so that none was sought.
+    answer rests on, where the accuracy of the channels is not all. fitted: titles of what was fitted. outside: whether what
+    `cautions` report is no law of the library, so that none was sought.
     """
 
     channels: tuple[str, ...] = ()

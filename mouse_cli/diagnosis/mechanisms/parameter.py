@@ -26,7 +26,8 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     for binding in () if model.problem.mesh is None else model.problem.bindings:
         bound.setdefault(binding.parameter, []).append(binding)
     common = [j for j, bindings in bound.items() if _common(model.problem.mesh, bindings)]
-    found = [(j, *slope) for j in common[:_MOST] if (slope := _slope(model, j)) is not None]
+    none = _matrices(model, model.theta) if common else np.zeros(0)
+    found = [(j, *slope) for j in common[:_MOST] if (slope := _slope(model, j, none)) is not None]
     return [
         _recipe(model, candidate, bound[j], j, slopes, by, float(np.log(share / len(found))))
         for j, *slopes in found
@@ -46,23 +47,23 @@ def _narrow(model: Reduced, j: int) -> float:
     return float(np.clip(_SD * model.problem.parameters[j].sd / abs(model.theta[j]), *_RANGE))
 
 
-def _slope(model: Reduced, j: int) -> tuple[np.ndarray, np.ndarray] | None:
-    """What as much again of a parameter adds to K and M; None where they are not linear in it, or know nothing of it."""
-    value = float(model.theta[j])
-    if not value:
-        return None
+def _matrices(model: Reduced, theta: np.ndarray) -> np.ndarray:
+    """K and M (2, r, r) at theta (p,), in the coordinates of the model."""
+    return np.array([model.project(matrix) for matrix in model.assembly.matrices(theta)])
 
-    def at(share: float) -> np.ndarray:
-        theta = model.theta.copy()
-        theta[j] = (1 + share) * value
-        return np.array([model.project(matrix) for matrix in model.assembly.matrices(theta)])
 
-    none, one, two = at(0.0), at(_STEP), at(2 * _STEP)
-    added, size = one - none, np.abs(one - none).max(axis=(1, 2))
-    known = size > _LINEAR * np.abs(none).max(axis=(1, 2))
-    if not known.any() or (np.abs(two - none - 2 * added).max(axis=(1, 2)) > _LINEAR * np.abs(none).max(axis=(1, 2))).any():
+def _slope(model: Reduced, j: int, none: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
+    """What as much again of a parameter adds to K and M (`none`, 2, r, r); None where they are not linear in it, or know nothing
+    of it.
+    """
+    if not model.theta[j]:
         return None
-    return tuple(added / _STEP)
+    unit = model.theta * (np.arange(len(model.theta)) == j)
+    added, twice = (_matrices(model, model.theta + share * unit) - none for share in (_STEP, 2 * _STEP))
+    least = _LINEAR * np.abs(none).max(axis=(1, 2))
+    known = np.abs(added).max(axis=(1, 2)) > least
+    curved = np.abs(twice - 2 * added).max(axis=(1, 2)) > least
+    return tuple(added / _STEP) if known.any() and not curved.any() else None
 
 
 def _recipe(

@@ -15,12 +15,12 @@ from mouse_cli.updating.recordings.readings import (
     Reading,
     changed,
     columns_of,
+    diagnostic,
     named,
     record_of,
     reread,
     shares_left,
     strained,
-    told,
 )
 from mouse_cli.updating.recordings.regression import Regression
 from mouse_cli.updating.recordings.series import Series
@@ -46,13 +46,12 @@ def check_coupling(own: Study, look: Series, at: Regression, before: float) -> N
     others = [j for j in range(len(record.channels)) if j not in wrong]
     corner = slow.corner_hz * _least(own, look, record, lambda factor: _filtered(others, slow.corner_hz * factor))
     there = reread(own, _filtered(others, corner)(record), look)
-    if there is None or there.nothing > INADEQUATE * there.y.size or strained(there):
+    if not _explains(there):
         return
     names = named(record, wrong)
     said = f"if {names} lose{'s' * (len(wrong) == 1)} what is slower than {corner:.3g} Hz (AC coupling, a high-pass of first order)"
     remedy = f"pass the other channels through the same filter, or {names} through its inverse; or record with DC coupling"
-    found = Reading(said, remedy, _filtered(others, corner))
-    raise DeckError(told(own.problem, record, before, [(shares_left(there, record.samples[:, outputs])[0], found)]))
+    raise _error(own, record, before, there, Reading(said, remedy, _filtered(others, corner)))
 
 
 def _filtered(columns: Sequence[int], corner_hz: float) -> Callable[[Recording], Recording]:
@@ -81,12 +80,23 @@ def check_scales(own: Study, look: Series, at: Regression, before: float) -> Non
     scaled += [(j, _least(own, look, record, partial(changed, [j]))) for j in grounds if len(grounds) == 1]
     for column, factor in scaled:
         there = None if factor is None else reread(own, changed([column], factor)(record), look)
-        if there is None or there.nothing > INADEQUATE * there.y.size or strained(there) or abs(factor - 1) < _SLIGHT:
+        if not _explains(there) or abs(factor - 1) < _SLIGHT:
             continue
         name, reads = named(record, [column]), f"{1 / factor:.4g} times what it measures"
         remedy = f"check the calibration of {name}, which reads {reads}"
-        found = Reading(f"if {name} reads {reads}", remedy, changed([column], factor))
-        raise DeckError(told(own.problem, record, before, [(shares_left(there, record.samples[:, outputs])[0], found)]))
+        raise _error(own, record, before, there, Reading(f"if {name} reads {reads}", remedy, changed([column], factor)))
+
+
+def _explains(at: Regression | None) -> bool:
+    """Whether the model leaves no more than noise of a record in some reading, with nuisances within their prior."""
+    return at is not None and at.nothing <= INADEQUATE * at.y.size and not strained(at)
+
+
+def _error(own: Study, record: Recording, before: float, there: Regression, reading: Reading) -> DeckError:
+    """MD457 of a record of which the model leaves `before`, and in one reading what it leaves `there`."""
+    outputs = columns_of(own.problem, own.records.outputs)
+    left, _ = shares_left(there, record.samples[:, outputs])
+    return DeckError(diagnostic(own.problem, record, before, [(left, reading)]))
 
 
 def by_model(own: Study, look: Series, j: int, record: Recording, at: Regression) -> float | None:

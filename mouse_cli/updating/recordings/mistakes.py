@@ -19,6 +19,7 @@ from mouse_cli.updating.recordings.readings import (
     Reading,
     changed,
     columns_of,
+    diagnostic,
     looked,
     named,
     record_of,
@@ -26,7 +27,6 @@ from mouse_cli.updating.recordings.readings import (
     share_left,
     shares_left,
     strained,
-    told,
 )
 from mouse_cli.updating.recordings.series import Series
 from mouse_cli.updating.recordings.study import Study
@@ -80,7 +80,7 @@ def _check(own: Study, look: Series, before: float, by_channel: np.ndarray) -> N
     if not found and by_channel.max() >= _ASTRAY:
         found = list(_of_kind_and_scale(own, look, record, int(np.argmax(by_channel)), before))
     if found:
-        raise DeckError(told(problem, record, before, found))
+        raise DeckError(diagnostic(problem, record, before, found))
 
 
 def _of_kind_and_scale(own: Study, look: Series, record: Recording, j: int, before: float) -> Iterator[tuple[float, Reading]]:

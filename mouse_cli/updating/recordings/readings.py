@@ -77,7 +77,7 @@ def shares_left(at: Regression, samples: np.ndarray) -> tuple[float, np.ndarray]
     return at.nothing / float(size.sum()), (at.left[at.kept] ** 2).sum(axis=0) / size
 
 
-def told(problem: Problem, record: Recording, before: float, found: list[tuple[float, Reading]]) -> Diagnostic:
+def diagnostic(problem: Problem, record: Recording, before: float, found: list[tuple[float, Reading]]) -> Diagnostic:
     """The first of the readings that fit alike, and the others beside it."""
     least = min(left for left, _ in found)
     alike = {each.said: each.remedy for left, each in found if left < _EQUAL * least}

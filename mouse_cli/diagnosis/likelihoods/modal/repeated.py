@@ -18,12 +18,11 @@ def repeated(one: Fit, twice: bool = False) -> list[tuple[int, int]]:
     """
     test, at = one.data.test, one.point
     have = np.isfinite(test.shapes).astype(int)
-    alike = (mac(test.shapes, test.shapes) > _ALIKE) & (have.T @ have >= SENSORS)
+    alike = (mac(test.shapes, test.shapes) > (_SAME if twice else _ALIKE)) & (have.T @ have >= SENSORS)
     own = at.measured(at.seen)
     with np.errstate(invalid="ignore"):
         apart = np.abs(np.subtract.outer(np.log(test.frequency_hz), np.log(test.frequency_hz))) > _APART
-    chosen = mac(test.shapes, test.shapes) > _SAME if twice else alike
-    found = np.argwhere(np.triu(chosen & alike & (apart != twice) & (mac(own, own) < _OTHER), 1))
+    found = np.argwhere(np.triu(alike & (apart != twice) & (mac(own, own) < _OTHER), 1))
     return [(int(i), int(j)) for i, j in found]
 
 
