@@ -54,7 +54,7 @@ CODES = {
         "The linear model, its parameters free within their prior, leaves most of a recording unexplained and little of it in "
         "another reading: all channels of one quantity in another unit, motions of another kind (displacement, velocity, "
         "acceleration), one of them at another scale, two channels exchanged, the force elsewhere, or another sample rate; outputs "
-        "that lose what is slow (AC coupling), and on a shake table a channel, or the table's, at another scale.",
+        "that lose what is slow (AC coupling), and on a shake table a channel, or the table's, at another scale or late.",
         "Follow the message: mend `unit`, `quantity`, `sample_rate`, or the sensor that a channel is given to.",
     ),
 }

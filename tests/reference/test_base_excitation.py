@@ -2,6 +2,7 @@
 
 import csv
 import json
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -363,12 +364,28 @@ def test_a_channel_on_a_table_that_is_another_one_or_scaled_is_told(tmp_path, ou
     """
     k = chain(K)
     ag, _, floors, _ = absolute(M, damping(M, k), k, np.ones(3))
-    path = deck(tmp_path, ag * table, floors * [1.0, gain, 1.0], outputs=outputs)
+    assert said in refused(deck(tmp_path, ag * table, floors * [1.0, gain, 1.0], outputs=outputs))
+
+
+@pytest.mark.parametrize(("late", "name"), [(0, "ag"), (2, "f2")])
+def test_a_channel_on_a_table_that_is_late_is_told(tmp_path, late, name):
+    """Of the table's 10 ms made an oscillator, refuted by what was held out, in 255 s."""
+    k = chain(K)
+    ag, _, floors, _ = absolute(M, damping(M, k), k, np.ones(3))
+    channels = np.column_stack([ag, floors])
+    channels[:, late] = np.roll(channels[:, late], 2)
+    said = refused(deck(tmp_path, channels[:, 0], channels[:, 1:]))
+    assert float(re.search(rf"if channel {name} is ([\d.]+) ms late", said)[1]) == pytest.approx(10, rel=0.02)
+
+
+def refused(path) -> str:
+    """What MD457 says of a deck that is refused."""
     problem = read_deck(str(path))
-    with pytest.raises(DeckError) as refused:
+    with pytest.raises(DeckError) as error:
         check(study(problem, records(problem)))
-    (found,) = refused.value.diagnostics
-    assert found.code == "MD457" and said in found.message
+    (found,) = error.value.diagnostics
+    assert found.code == "MD457"
+    return found.message
 
 
 def test_nothing_is_lost_that_the_model_does_not_have(tmp_path):

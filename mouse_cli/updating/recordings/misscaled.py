@@ -1,6 +1,6 @@
-"""Channels at another scale, or without what is slow: a factor, or a corner, with which the model explains a record."""
+"""Channels at another scale, late, or without what is slow: a factor, a delay or a corner with which the model explains a record."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -9,6 +9,7 @@ import numpy as np
 from mouse_cli._errors import DeckError
 from mouse_cli.model.recording import Recording
 from mouse_cli.updating.recordings.adequacy import INADEQUATE
+from mouse_cli.updating.recordings.channels import earlier
 from mouse_cli.updating.recordings.coupled import coupled
 from mouse_cli.updating.recordings.noise import predicted
 from mouse_cli.updating.recordings.readings import (
@@ -28,6 +29,7 @@ from mouse_cli.updating.recordings.study import Study
 
 _TURNS, _SLIGHT = 4, 0.02  # of a scale that is sought; a channel that is off by less is none that is wrong
 _WIDE = 0.7  # of the logarithm of the scale of a table, or of a corner, either way
+_LATE = 0.5, 16.0  # samples, the least and the most, that a delay is first sought at, twice as many each time, either way
 _THOUGHT = 0.5  # of what is left, that a corner leaves in closed form to be thought of
 
 
@@ -66,25 +68,66 @@ def _filtered(columns: Sequence[int], corner_hz: float) -> Callable[[Recording],
     return of
 
 
-def check_scales(own: Study, look: Series, at: Regression, before: float) -> None:
-    """Raise DeckError (MD457) where one output at another scale, or else the motion of the ground, leaves no more than noise of a
-    record, and as it is more.
+def check_grounded(own: Study, look: Series, at: Regression, before: float) -> None:
+    """Raise DeckError (MD457) where one output, or else the motion of the ground, at another scale or late leaves no more than
+    noise of a record, and as it is more.
     """
     if at.nothing <= INADEQUATE * at.y.size:
         return
     record, _ = record_of(own, look)
+    for reading in _misread(own, look, record, at):
+        there = reread(own, reading.of(record), look)
+        if _explains(there):
+            raise _error(own, record, before, there, reading)
+
+
+def _misread(own: Study, look: Series, record: Recording, at: Regression) -> Iterator[Reading]:
+    """The loudest output, and the motion of the ground, at the scale and with the delay that leave least."""
     outputs = columns_of(own.problem, own.records.outputs)
     loudest = int(np.argmax((at.left[at.kept] ** 2).sum(axis=0)))
-    scaled = [(outputs[loudest], by_model(own, look, loudest, record, at))]
     grounds = [j for j in columns_of(own.problem, own.records.inputs) if record.channels[j].ground]
-    scaled += [(j, _least(own, look, record, partial(changed, [j]))) for j in grounds if len(grounds) == 1]
-    for column, factor in scaled:
-        there = None if factor is None else reread(own, changed([column], factor)(record), look)
-        if not _explains(there) or abs(factor - 1) < _SLIGHT:
-            continue
-        name, reads = named(record, [column]), f"{1 / factor:.4g} times what it measures"
-        remedy = f"check the calibration of {name}, which reads {reads}"
-        raise _error(own, record, before, there, Reading(f"if {name} reads {reads}", remedy, changed([column], factor)))
+    grounds = grounds if len(grounds) == 1 else []
+    factors = [(outputs[loudest], by_model(own, look, loudest, record, at))]
+    factors += [(j, _least(own, look, record, partial(changed, [j]))) for j in grounds]
+    for j, factor in factors:
+        if factor is not None and abs(factor - 1) >= _SLIGHT:
+            name, reads = named(record, [j]), f"{1 / factor:.4g} times what it measures"
+            remedy = f"check the calibration of {name}, which reads {reads}"
+            yield Reading(f"if {name} reads {reads}", remedy, changed([j], factor))
+    for j in (outputs[loudest], *grounds):
+        seconds = _delay(own, look, record, j)
+        if seconds:
+            name, is_ = named(record, [j]), f"{1e3 * abs(seconds):.3g} ms {'late' if seconds > 0 else 'early'}"
+            yield Reading(f"if {name} is {is_}", f"shift {name} by so much in its file: it is {is_}", _prompt(j, seconds))
+
+
+def _prompt(column: int, seconds: float) -> Callable[[Recording], Recording]:
+    """A channel without its delay."""
+
+    def of(one: Recording) -> Recording:
+        delay = np.zeros(len(one.channels))
+        delay[column] = seconds
+        mean = one.samples.mean(axis=0)
+        return replace(one, samples=mean + earlier(one.samples - mean, one.time_step_s, delay))
+
+    return of
+
+
+def _delay(own: Study, look: Series, record: Recording, column: int) -> float:
+    """That of a channel, s, without which the model leaves least; 0 where it is none that is tried."""
+    from scipy.optimize import minimize_scalar
+
+    def left(seconds: float) -> float:
+        at = reread(own, _prompt(column, seconds)(record), look)
+        return np.inf if at is None else at.nothing
+
+    once = _LATE[0] * 2 ** np.arange(np.log2(_LATE[1] / _LATE[0]) + 1) * record.time_step_s
+    tried = np.concatenate([-once[::-1], [0.0], once])
+    best = int(np.argmin([left(seconds) for seconds in tried]))
+    if tried[best] == 0:
+        return 0.0
+    bounds = tried[max(best - 1, 0)], tried[min(best + 1, len(tried) - 1)]
+    return float(minimize_scalar(left, bounds=bounds, method="bounded", options={"xatol": 1e-3 * record.time_step_s}).x)
 
 
 def _explains(at: Regression | None) -> bool:

@@ -14,7 +14,7 @@ from mouse_cli._errors import DeckError
 from mouse_cli.model.channel_units import COMMON, target, unit
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.recording import MOTIONS, Recording
-from mouse_cli.updating.recordings.misscaled import by_model, check_coupling, check_scales
+from mouse_cli.updating.recordings.misscaled import by_model, check_coupling, check_grounded
 from mouse_cli.updating.recordings.readings import (
     Reading,
     changed,
@@ -43,8 +43,8 @@ def check(own: Study) -> None:
     """Raise DeckError (MD457) where the model leaves most of a record as it is read, and little of it in another reading.
 
     Of channels that are exchanged also where it leaves little with parameters far from their prior, which make up for them; of one
-    that is scaled where the ground moves the model and the others are explained with it at another scale: no law of a channel is
-    sought there.
+    that is scaled or late where the ground moves the model and the others are explained with it read otherwise: no law of a channel
+    is sought there.
 
     Read otherwise are the loudest record, and that of which the model leaves most: it may be one of many that is wrong.
     """
@@ -60,7 +60,7 @@ def check(own: Study) -> None:
             _check(own, looks[i], *left[i])
     check_coupling(own, looks[0], read[0], left[0][0])
     if own.base.ground:
-        check_scales(own, looks[0], read[0], left[0][0])
+        check_grounded(own, looks[0], read[0], left[0][0])
 
 
 def _check(own: Study, look: Series, before: float, by_channel: np.ndarray) -> None:
