@@ -1,4 +1,4 @@
-"""Channels at another scale, late, or without what is slow: a factor, a delay or a corner with which the model explains a record."""
+"""Channels at another scale, late, or without what is slow: a factor, delay or corner with which the model explains it."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
