@@ -1,4 +1,4 @@
-"""A structure that changes while it is recorded: linear before and after, both integrated by scipy."""
+"""A structure that changes, or drifts, while it is recorded: linear before and after, all integrated by scipy."""
 
 import json
 
@@ -11,6 +11,7 @@ from two_masses import DECK, K, record
 from mouse_cli.cli.main import cli
 from mouse_cli.formats import read_deck
 from mouse_cli.updating.recordings.changed import changed
+from mouse_cli.updating.recordings.drift import drift
 from mouse_cli.updating.recordings.records import records
 from mouse_cli.updating.recordings.study import study
 
@@ -21,12 +22,24 @@ def loosened(folder, share: float, at_s: float, louder: float = 1.0) -> str:
     """A deck whose record is of two masses, the spring between which keeps so much of its stiffness from a moment on; the force is
     so many times as large then.
     """
+    return recorded(folder, lambda t: [(t < at_s, 1.0), (t >= at_s, share)], lambda t: np.where(t < at_s, 1.0, louder))
+
+
+def drifting(folder, share: float, louder: float = 1.0) -> str:
+    """The same where it loses stiffness steadily, in steps of a hundredth of the record."""
+    steps = lambda t: [(part, 1 - (1 - share) * i / 99) for i, part in enumerate(np.array_split(np.arange(len(t)), 100))]
+    return recorded(folder, steps, lambda t: 1 + (louder - 1) * t / t[-1])
+
+
+def recorded(folder, kept, level) -> str:
+    """kept(t): parts of the time, with the share of its stiffness that the spring has in each; level(t): of the force."""
     rng, t = np.random.default_rng(3), np.arange(int(SECONDS * RATE * FINER)) / (RATE * FINER)
     hz = np.fft.rfftfreq(len(t), t[1])
     f = np.fft.irfft(np.where((hz > 2) & (hz < 60), np.exp(2j * np.pi * rng.uniform(size=len(hz))), 0), len(t))
-    f *= 40 / f.std() * np.where(t < at_s, 1.0, louder) * np.minimum(t / 0.2, 1)
+    f *= 40 / f.std() * level(t) * np.minimum(t / 0.2, 1)
     begun, motion = np.zeros(4), []
-    for own, k in ((t < at_s, 3e4), (t >= at_s, 3e4 * share)):
+    for own, share in kept(t):
+        k = 3e4 * share
         stiff = 1.01 * np.array([[2e4 + k, -k], [-k, k]])
         A = np.block([[np.zeros((2, 2)), np.eye(2)], [-stiff, -1.2e-4 * K]])
         B = np.array([[0.0], [0.0], [0.0], [1.0]])
@@ -72,3 +85,31 @@ def test_a_loss_of_a_fifth_is_surely_one(tmp_path):
 def test_what_is_the_same_all_the_time_has_not_changed(tmp_path, deck):
     problem = read_deck(deck(tmp_path))
     assert changed(study(problem, records(problem))) is None
+
+
+def test_what_drifts_is_told_with_its_path(tmp_path):
+    """It was a hidden oscillator that left 362 times the noise. Of 70 records with other causes none had a share above 0.6."""
+    done = CliRunner().invoke(cli, ["diagnose", drifting(tmp_path, 0.7), "--json", "-q"])
+    found = json.loads(done.stdout)
+    problem = read_deck(tmp_path / "deck.yaml")
+    own = study(problem, records(problem))
+    path = drift(own)
+    assert found["verdict"]["kind"] == "unknown" and path.said() in found["cautions"]
+    assert path.names == ("k2",) and path.share > 0.95
+    begin, end = (float(each.split()[0]) for each in path.ends)
+    lost = 0.3 * len(own.look) / (SECONDS * RATE)
+    assert 1 - end / begin == pytest.approx(lost, rel=0.1)
+
+
+@pytest.mark.parametrize(
+    "deck",
+    [
+        lambda folder: loosened(folder, 1.0, 6.1),
+        lambda folder: drifting(folder, 0.7, louder=3.0),  # another stiffness at another level may be a law
+        lambda folder: record(folder, lambda u, v: 2e9 * (u[1] - u[0]) ** 3 * np.array([-1.0, 1.0])),
+    ],
+    ids=["sound", "louder", "cubic"],
+)
+def test_what_is_the_same_all_the_time_does_not_drift(tmp_path, deck):
+    problem = read_deck(deck(tmp_path))
+    assert drift(study(problem, records(problem))) is None

@@ -1,16 +1,20 @@
 """Recordings whose units, kinds, channels or sample rate are misstated, against records that scipy integrated."""
 
+import json
 import re
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 from scipy.signal import butter, lfilter
 from two_masses import linear, record
 
 from mouse_cli._errors import DeckError
+from mouse_cli.cli.main import cli
 from mouse_cli.formats import read_deck
 from mouse_cli.updating.recordings.mistakes import check
 from mouse_cli.updating.recordings.records import records
+from mouse_cli.updating.recordings.saturated import saturated
 from mouse_cli.updating.recordings.study import study
 from mouse_cli.updating.recordings.update import update_records
 
@@ -67,6 +71,32 @@ def test_sensors_that_lose_what_is_slow_are_told_with_their_corner(tmp_path):
     (found,) = refused.value.diagnostics
     corner = float(re.search(r"if channels a1, a2 lose what is slower than ([\d.]+) Hz", found.message)[1])
     assert found.code == "MD457" and corner == pytest.approx(4.0, rel=0.05)
+
+
+@pytest.mark.parametrize("level", [1.3, 2.0])
+def test_a_channel_that_saturates_is_told_with_its_curve(tmp_path, level):
+    """By a hyperbolic tangent that ends at so many rms: m2, 1 % sure, went 12 prior sd off for it, and was to be checked."""
+    misread(tmp_path, linear, {}, {})
+    kept = dict(np.load(tmp_path / "run.npz"))
+    top = level * kept["a2"].std()
+    np.savez(tmp_path / "run.npz", **kept | {"a2": top * np.tanh(kept["a2"] / top)})
+    problem = read_deck(tmp_path / "deck.yaml")
+    own = study(problem, records(problem))
+    found = saturated(own)
+    largest = np.abs(own.look.measured[:, 1]).max() / top  # of what it can read
+    assert found.channel == "a2" and found.times == pytest.approx(np.arctanh(0.8 * largest) / (0.8 * largest), rel=0.1)
+    told = json.loads(CliRunner().invoke(cli, ["diagnose", str(tmp_path / "deck.yaml"), "--json", "-q"]).stdout)
+    assert told["verdict"]["kind"] == "unknown" and told["cautions"] == [found.said()]
+
+
+def cubic(u, v):
+    return 2e9 * (u[1] - u[0]) ** 3 * np.array([-1.0, 1.0])
+
+
+@pytest.mark.parametrize(("law", "gain"), [(linear, 1.0), (linear, 1.3), (cubic, 1.0)])
+def test_a_gain_or_a_law_saturates_no_channel(tmp_path, law, gain):
+    problem = misread(tmp_path, law, {"a2": gain}, {})
+    assert saturated(study(problem, records(problem))) is None
 
 
 def test_an_update_is_refused_likewise(tmp_path):

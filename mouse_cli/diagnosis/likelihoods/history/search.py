@@ -26,6 +26,7 @@ from mouse_cli.updating.recordings.at_odds import odd
 from mouse_cli.updating.recordings.changed import changed
 from mouse_cli.updating.recordings.channels import Misreading, misreadings
 from mouse_cli.updating.recordings.disturbed import disturbed, unmeasured
+from mouse_cli.updating.recordings.drift import drift
 from mouse_cli.updating.recordings.fit import Fit
 from mouse_cli.updating.recordings.misread import misread
 from mouse_cli.updating.recordings.mistakes import check
@@ -33,6 +34,7 @@ from mouse_cli.updating.recordings.noise import doubtful, noise
 from mouse_cli.updating.recordings.positional import positional
 from mouse_cli.updating.recordings.pushed import pushed
 from mouse_cli.updating.recordings.regression import Regression, Start, starts
+from mouse_cli.updating.recordings.saturated import saturated
 from mouse_cli.updating.recordings.study import Study, fitted
 from mouse_cli.updating.recordings.tone import tone
 from mouse_cli.updating.refusals import not_simulated
@@ -92,6 +94,8 @@ def weighed(study: Study, notice: Notice, known: list[Law] | None = None, causes
         return Weighed(baseline, [], otherwise=steady.said())
     if not noisy and (when := changed(study)) is not None:
         return Weighed(baseline, [], otherwise=when.said())
+    if not noisy and (other := drift(study) or saturated(study)) is not None:
+        return Weighed(baseline, [], otherwise=other.said())
     dropped: dict[str, str] = {}
     found = undamped(study, shown(study, _singles(study, notice, known, baseline), dropped), dropped)
     best = min([baseline, *found], key=innovation)

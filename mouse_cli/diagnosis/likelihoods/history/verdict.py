@@ -106,13 +106,14 @@ def decided(ranking: Ranking, found: Weighed, ratio: float, free: bool = False, 
 
     free: of free decays, whose loud beginning is one stretch or two: a law that leaves more than noise there may stand for another.
     whole: whether all laws were tried. The model as it is is held to what a law is held to: where none of them has a log evidence
-    over none, it is adequate if it leaves no more than a law may.
+    over none, it is adequate if it leaves no more than a law may. What explains the records otherwise pushes parameters too.
     """
     best, first = leader(ranking), ranking.fits[0]
     if not missing(ranking.baseline) or found.beside is found.baseline:
         return Decision(NOTHING)
-    distant = far(first, ranking.noise_scale)
-    if distant:
+    if found.otherwise:
+        return Decision(UNKNOWN)
+    if distant := far(first, ranking.noise_scale):
         return Decision(UNKNOWN, cautions=(_distant(distant),))
     if best is None or ranking.groups[0][0] == "none":
         sound = whole and first is ranking.baseline and adequate(first)
