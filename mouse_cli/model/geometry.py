@@ -28,6 +28,12 @@ class Geometry:
         freeze(self, int, node_ids=(k,), node=(n,), direction=(n,), lines=(l, 2))
         freeze(self, coordinates=(k, 3))
 
+    @property
+    def placed(self) -> np.ndarray:
+        """Mask (n,) of the degrees of freedom that are sites: those of nodes, without what solvers add; all where none is."""
+        own = self.node >= 0
+        return own | ~own.any()
+
     def labels(self) -> tuple[str, ...]:
         """Names (n,) of the degrees of freedom: node, then direction, such as `12TY`; a number where there is no node."""
         named = zip(self.node.tolist(), self.direction.tolist(), strict=True)

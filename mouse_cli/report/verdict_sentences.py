@@ -29,7 +29,8 @@ _SURE = 0.95  # probability of what acts beside a name, from which on its place 
 def sentences(found: Diagnosis) -> tuple[str, ...]:
     """What was found, the first sentence first."""
     if found.kind == NOTHING:
-        return tuple(filter(None, (_nothing(found), _possible(found))))
+        possible = _possible(found)
+        return tuple(filter(None, (_nothing(found, bool(possible)), possible)))
     if found.kind == NAMED:
         return _named(found)
     if found.kind == ONE_OF:
@@ -42,14 +43,16 @@ def faulty(best: Explanation) -> bool:
     return all(cause.site.kind == "sensor" for cause in best.causes)
 
 
-def _nothing(found: Diagnosis) -> str:
+def _nothing(found: Diagnosis, open_: bool) -> str:
+    """open_: whether something is more probable than that nothing is missing."""
     if isinstance(found, RecordDiagnosis):
         sentence = "Nothing is missing that these records could show: the linear model, with its parameters revised, explains them"
         return f"{sentence}{' but for noise of their own' if found.noise else ''}."
     status = found.result.status
-    sentence = (
-        "Nothing is missing that this test could show: the model, with its parameters revised, explains the data."
-    )
+    begin = "Nothing is missing that this test could show"
+    if open_:
+        begin = "This test does not show that something is missing, nor that nothing is"
+    sentence = f"{begin}: the model, with its parameters revised, explains the data."
     if not found.result.residual.dof:
         sentence = (
             "Nothing is missing that this test could show, and it could show little: its parameters can follow all of its data, so "

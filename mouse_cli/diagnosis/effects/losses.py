@@ -229,6 +229,7 @@ def _springs(model: Reduced) -> list[Listed]:
         upper &= keep[stored.row] & keep[stored.col]
     if at is not None:
         upper &= (at.direction[stored.row] == at.direction[stored.col]) & (at.direction[stored.row] < 3)
+        upper &= at.placed[stored.row] & at.placed[stored.col]
     pairs = zip(stored.row[upper].tolist(), stored.col[upper].tolist(), -stored.data[upper], strict=True)
     found = [
         _spring(model, f"the spring between {labels[i]} and {labels[j]}", k, i, j) for i, j, k in _largest(model, pairs)

@@ -13,7 +13,7 @@ from mouse_cli.diagnosis.effects.hinges import hinged, joint_stiffness, lines, p
 from mouse_cli.diagnosis.effects.twisted import Torsion, torsion, twisted
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
-from mouse_cli.diagnosis.sites.bars import Bars
+from mouse_cli.diagnosis.sites.bars import ABOUT, Bars
 from mouse_cli.diagnosis.sites.lines import Line
 from mouse_cli.diagnosis.sites.reasons import bars
 from mouse_cli.model.diagnosis import Site
@@ -91,8 +91,8 @@ def _spliced(
         return []
     bars = model.bars
     k = joint_stiffness(model, max(float(bars.EI[line.members].max() / line.length) for line in chosen))
-    axes = ["local y", "local z"][: len(planes(chosen[0].members[0]))] + (["torsion"] if twisting else [])
-    names = [k.name] if len(axes) == 1 else [f"{k.name}, {axis}" for axis in axes]
+    axes = [*ABOUT[: len(planes(chosen[0].members[0]))], *(["local x"] if twisting else [])]
+    names = [k.name] if len(axes) == 1 else [f"{k.name} about {axis}" for axis in axes]
 
     def does(bar: int, share: float, values: np.ndarray) -> Change:
         b = np.array([1.0, 2 * share - 1, 0.0])
@@ -102,15 +102,15 @@ def _spliced(
 
     def extend(problem: Problem, bar: int, share: float, values: np.ndarray) -> Problem:
         own = planes(bar)
-        about = [f", local {'yz'[bars.plane[each]]}" if len(own) > 1 else "" for each in own]
-        about += [", torsion"] if twisting else []
+        about = [f", about {ABOUT[bars.plane[each]]}" if len(own) > 1 else "" for each in own]
+        about += [", about local x"] if twisting else []
         named = [f"splice in {bars.site(bar, share).text}{each}" for each in about]
         return with_joint(problem, bars, own, share, named, values)
 
     starts = np.column_stack([steps(k, _STARTS if len(axes) == 1 else _ALIKE)] * len(axes))
     sizes = tuple(replace(k, name=name) for name in names)
     made = places(model, candidate, sizes, does, starts, extend, chosen)
-    about = f", {enumerated(axes)}" if len(axes) > 1 else ""
+    about = f", about {enumerated(axes)}" if len(axes) > 1 else ""
     return [
         replace(one, limit=_root(model, line), site=lambda values, site=one.site: _about(site(values), about))
         for one, line in zip(made, chosen, strict=True)
@@ -180,18 +180,18 @@ def _recipe(
     """planes: the bars of one element, of the planes in which it turns against the rest; own: its torsion, if it twists too."""
     bars, first = model.bars, planes[0]
     node = int(model.problem.mesh.node_ids[bars.nodes[first, end]])
-    axes = [f"local {'yz'[bars.plane[bar]]}" for bar in planes] + (["torsion"] if own else [])
+    axes = [ABOUT[bars.plane[bar]] for bar in planes] + (["local x"] if own else [])
     site = Site(
         "node",
         (node,),
         bars.point(first, float(end)),
-        f"element {bars.ids[first]} at node {node}, {enumerated(axes)}",
+        f"element {bars.ids[first]} at node {node}, about {enumerated(axes)}",
     )
     several = len(axes) > 1
     scales = [bars.EI[bar] / bars.lines[bars.line[bar]].length for bar in planes] + ([own.GJ] if own else [])
     k = [joint_stiffness(model, scale) for scale in scales]
     k = [
-        replace(each, name=f"{each.name}, {axis}" if several else each.name) for each, axis in zip(k, axes, strict=True)
+        replace(each, name=f"{each.name} about {axis}" if several else each.name) for each, axis in zip(k, axes, strict=True)
     ]
     b = np.array([1.0, 2.0 * end - 1, 0.0])
 
@@ -201,7 +201,7 @@ def _recipe(
         return twisted(turning, bars, first, float(end), own, values[-1]) if own else turning
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
-        named = [f"joint of element {bars.ids[first]} at node {node}, {axis}" for axis in axes]
+        named = [f"joint of element {bars.ids[first]} at node {node}, about {axis}" for axis in axes]
         return with_joint(problem, bars, list(planes), float(end), named, values)
 
     grid = np.column_stack([steps(each, _STARTS) for each in k])

@@ -82,7 +82,7 @@ def _of_direction(model: Reduced, d: int) -> Ends:
     structure = model.problem.structure
     own = translations(model)
     if structure.geometry is not None:
-        along = np.flatnonzero(structure.geometry.direction == d)
+        along = np.flatnonzero((structure.geometry.direction == d) & structure.geometry.placed)
         own = along if d > 2 else np.intersect1d(own, along)
     sites = tuple(named_dof(structure, int(i)) for i in own)
     return _moving(Ends(sites, model.V[own], places(structure)[0][own], own, d))

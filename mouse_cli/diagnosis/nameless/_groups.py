@@ -55,8 +55,12 @@ def _share(entries: Entries, total: np.ndarray) -> float:
 
 
 def places(structure: Structure) -> tuple[np.ndarray, str]:
-    """Where each degree of freedom is (n, d), and in which unit: at its node in m, else by its number."""
-    geometry = structure.geometry
-    if geometry is None or (geometry.node < 0).any():
+    """Where each degree of freedom is (n, d), and in which unit: at its node in m, else by its number.
+
+    What a solver adds, on no node, is in the middle of all.
+    """
+    at = structure.geometry
+    if at is None or not (at.node >= 0).any():
         return np.arange(structure.n, dtype=float)[:, None], "degrees of freedom"
-    return geometry.coordinates[geometry.node], "m"
+    middle = at.coordinates[np.unique(at.node[at.node >= 0])].mean(axis=0)
+    return np.where((at.node >= 0)[:, None], at.coordinates[at.node], middle), "m"

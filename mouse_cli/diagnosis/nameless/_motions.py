@@ -66,4 +66,5 @@ def translations(model: Reduced) -> np.ndarray:
     """Degrees of freedom (c,) that are worth looking at and do not turn."""
     structure, keep = model.problem.structure, wanted(model)
     own = np.arange(structure.n) if keep is None else np.flatnonzero(keep)
-    return own if structure.geometry is None else own[structure.geometry.direction[own] < 3]
+    at = structure.geometry
+    return own if at is None else own[((at.direction < 3) & at.placed)[own]]

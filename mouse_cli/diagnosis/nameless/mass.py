@@ -21,8 +21,9 @@ def cells(model: Reduced) -> Cells | None:
 
 def _diagonal(model: Reduced) -> Cells | None:
     mass = model.assembly.matrices(model.theta)[1].diagonal()
-    keep = wanted(model)
-    own = np.flatnonzero(mass > 0) if keep is None else np.flatnonzero(keep & (mass > 0))
+    keep, geometry = wanted(model), model.problem.structure.geometry
+    has = mass > 0 if geometry is None else (mass > 0) & geometry.placed
+    own = np.flatnonzero(has) if keep is None else np.flatnonzero(keep & has)
     sites = [named_dof(model.problem.structure, int(i)) for i in own]
 
     def extend(problem: Problem, kept: np.ndarray, values: np.ndarray, spread: float) -> Problem:

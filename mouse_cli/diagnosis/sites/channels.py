@@ -155,6 +155,7 @@ def _of_matrices(model: Reduced) -> list[Channel]:
     at, labels = structure.geometry, structure.labels
     turns = np.zeros(structure.n, bool) if at is None else at.direction > 2
     dofs = np.arange(structure.n) if model.places is None else model.places
+    dofs = dofs if at is None else dofs[at.placed[dofs]]
 
     def site(i: int) -> Site:
         where = None if at is None or at.node[i] < 0 else tuple(float(x) for x in at.coordinates[at.node[i]])
@@ -188,4 +189,5 @@ def coupled(model: Reduced) -> tuple[np.ndarray, np.ndarray]:
         kept &= np.isin(one, model.places) & np.isin(other, model.places)
     if at is not None:
         kept &= (at.direction[one] == at.direction[other]) & (at.node[one] != at.node[other])
+        kept &= at.placed[one] & at.placed[other]
     return one[kept], other[kept]

@@ -228,7 +228,7 @@ def _dofs(model: Reduced, together: bool) -> list[Points]:
     free = np.arange(structure.n) if keep is None else np.flatnonzero(keep)
     at = structure.geometry
     if at is not None:
-        free = free[(at.direction[free] < 3) & ((at.node[free] >= 0) | (at.node < 0).all())]
+        free = free[((at.direction < 3) & at.placed)[free]]
     if at is None or not together:
         sites = [named_dof(structure, int(i)) for i in free]
         return [_single(model, site, (int(i),)) for i, site in zip(free, sites, strict=True)]

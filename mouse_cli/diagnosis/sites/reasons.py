@@ -78,3 +78,8 @@ def line_masses(model: Any) -> str:
     if model.bars is None:
         return bars(model)
     return "a parameter stands for the nonstructural_mass of every beam already"
+
+
+def twisting(model: Any) -> str:
+    """Without a beam that twists."""
+    return bars(model) if model.bars is None else "no beam has a torsion constant, or none that the measured modes would feel"

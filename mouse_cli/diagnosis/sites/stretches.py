@@ -8,6 +8,7 @@ from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.extend.places import beams_within, element_at
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.diagnosis.sites.bars import ABOUT
 from mouse_cli.diagnosis.sites.lines import Line
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
@@ -51,7 +52,8 @@ def _recipe(candidate: Candidate, line: Line, share: float, widest: float, stiff
     d = Unknown("stiffness added" if stiffer else "flexibility added", "1", 0.02, 3.0)
     w = Unknown("width over length", "1", 0.05, widest)
     x = Unknown(PLACE, "m", 0.0, L, log=False)
-    plane = ", in both planes" if both else f", local {'yz'[line.bars.plane[line.members[0]]]}" if bends_both_ways(line) else ""
+    about = f", bending about {ABOUT[line.bars.plane[line.members[0]]]}" if bends_both_ways(line) else ""
+    plane = ", in both planes" if both else about
 
     def change(values: np.ndarray) -> Change:
         touched, a, b = covered(line, *stretch(line, values))

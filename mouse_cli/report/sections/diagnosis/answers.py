@@ -8,6 +8,7 @@ import numpy as np
 from mouse_cli._texts import capital
 from mouse_cli.model.diagnosis import (
     BY_MODE,
+    LAW,
     NAMED,
     NOTHING,
     ONE_OF,
@@ -83,9 +84,11 @@ def _where(found: Diagnosis) -> Iterator[Block]:
 
 
 def _by_shapes(found: Diagnosis) -> str:
-    """What shapes say of the place; not that it is many, where one mechanism is named, which need not act by one force."""
-    alone = found.kind == NAMED and len(found.best.causes) == 1
-    return "" if alone and found.location is not None and not found.location.single else _location(found.location)
+    """What shapes say of the place; not that it is many, where one at one site explains the data: it need not act by one force."""
+    field = found.field
+    single = any(len(one.causes) == 1 for one in ([found.best] if found.kind == NAMED else leaders(found)))
+    single = single or (found.kind == UNKNOWN and field is not None and field.property == LAW and field.beside is None)
+    return "" if single and found.location is not None and not found.location.single else _location(found.location)
 
 
 def _location(location: Location | None) -> str:
