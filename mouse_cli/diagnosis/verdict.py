@@ -8,6 +8,7 @@ from mouse_cli.diagnosis.companions import Shared, carrying, panelled, placed, s
 from mouse_cli.diagnosis.gates import DEMANDED, FAR, GATE, LIKELY, ODDS, STAYS, SURE
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.unseen import unmeasured_hz
+from mouse_cli.diagnosis.nameless.fit import significant
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.diagnosis.search.rank import Ranking, explains, group, unnamed
 from mouse_cli.diagnosis.validate.averaged import averaged
@@ -86,14 +87,16 @@ def _judged(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:
     Something is missing where the update leaves too much, where the model as it is is improbable (DEMANDED), or where some
     mechanism is sure and what the deck holds out confirms it. Where none of that holds and yet the model as it is is not probable
     (LIKELY), or the model as it is fails on what the deck holds out and a mechanism predicts it, it is likely, not proved: one of
-    several, the model as it is among them. A mechanism that is sure at one of several sites is one of these, unless all of them are
-    in one line of panels: that is the place then; of a set those are named whose sites are sure. Of a set that data held out
-    refute, or modes that are predicted from one another, that one mechanism is named which carries it, if any does.
+    several, the model as it is among them. What leads without a name, and has no value that differs from 0, makes nothing likely:
+    members scatter. A mechanism that is sure at one of several sites is one of these, unless all of them are in one line of
+    panels: that is the place then; of a set those are named whose sites are sure. Of a set that data held out refute, or modes
+    that are predicted from one another, that one mechanism is named which carries it, if any does.
     """
     baseline, best, none = ranking.baseline, leader(ranking), dict(ranking.groups).get("none", 0.0)
     believed = ranking.stated[0] >= _BELIEVED
-    demanded = doubtful(baseline, rejected) or (baseline.telling and none < GATE) or (believed and none < DEMANDED)
-    likely = best is not None and believed and none <= LIKELY
+    shown = believed and (not ranking.fits[0].nameless or significant(ranking.fits[0]))
+    demanded = doubtful(baseline, rejected) or (baseline.telling and none < GATE) or (shown and none < DEMANDED)
+    likely = best is not None and shown and none <= LIKELY
     asked = demanded or likely or (believed and best is not None and _odds(ranking, best) > 0)
     proof = held_out(model, baseline, best if asked else None)
     gain = _gain(proof)

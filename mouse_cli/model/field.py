@@ -8,6 +8,7 @@ from mouse_cli.model.site import Site
 # Of what kind physics without a name is.
 STIFFNESS, MASS, BED, AXIAL = "stiffness", "mass", "bed", "axial"
 FORCE, COMPLIANCE, LAW = "force", "compliance", "law"
+SHOWN = 2.0  # sd from which on a value differs from 0
 
 
 @dataclass(frozen=True)

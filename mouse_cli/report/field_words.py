@@ -1,8 +1,10 @@
 """Physics without a name in words: what it acts on, where most of it is, what it gains."""
 
 from collections.abc import Sequence
+from math import log1p
 
 from mouse_cli.model.diagnosis import AXIAL, BED, COMPLIANCE, FORCE, LAW, MASS, STIFFNESS, Field, FieldValue, HeldOut
+from mouse_cli.model.field import SHOWN
 from mouse_cli.report.sections._diagnosis_wording import nats, place
 
 ACTS = {
@@ -23,9 +25,9 @@ UNITS = {
     COMPLIANCE: "of that motion",
     LAW: "of the static stiffness there",
 }  # of values as they are printed
+_LOST = -0.99  # share that a part loses at most, to be compared with others
 _MOST = 0.5  # of the largest value: neighbours above it belong to where most of the field is
 _TOGETHER = "By all hypotheses together, each with its probability,"
-_SHOWN = 2.0  # sd from which on a value is listed by itself
 
 
 def field_sentences(field: Field, what: str = "What is missing") -> tuple[str, ...]:
@@ -82,18 +84,21 @@ def significant(field: Field) -> list[FieldValue]:
 
 def _tells(one: FieldValue) -> bool:
     """Whether a value differs from 0 by more than two standard deviations."""
-    return abs(one.value) > _SHOWN * one.sd
+    return abs(one.value) > SHOWN * one.sd
 
 
-def core(values: Sequence[FieldValue]) -> tuple[int, int, int]:
+def core(values: Sequence[FieldValue], shares: bool) -> tuple[int, int, int]:
     """First, largest and last of the neighbours, of one sign, that have more than half of the largest value.
 
+    shares: of a whole, compared by their logarithms: what lost 78 % has changed by more than what gained 88 %.
+
     >>> from mouse_cli.model.site import Site
-    >>> core([FieldValue(Site("element", (i,)), x, 0.01) for i, x in enumerate((0.0, -0.2, -0.3, -0.1, 0.2))])
+    >>> core([FieldValue(Site("element", (i,)), x, 0.01) for i, x in enumerate((0.0, -0.2, -0.3, -0.1, 0.35))], True)
     (1, 2, 2)
     """
-    top = max(range(len(values)), key=lambda i: abs(values[i].value))
-    belongs = lambda i: values[i].value * values[top].value > _MOST * values[top].value ** 2
+    size = [log1p(max(each.value, _LOST)) if shares else each.value for each in values]
+    top = max(range(len(size)), key=lambda i: abs(size[i]))
+    belongs = lambda i: size[i] * size[top] > _MOST * size[top] ** 2
     first, last = top, top
     while first > 0 and belongs(first - 1):
         first -= 1
@@ -132,7 +137,7 @@ def _most(field: Field) -> str:
         return ""
     if not any(map(_tells, field.values)):
         return ", nowhere by more than two standard deviations"
-    first, top, last = core(field.values)
+    first, top, last = core(field.values, field.property in (STIFFNESS, MASS))
     largest = field.values[top]
     sized = f"{amount(field, largest.value)}, sd {amount(field, largest.sd)}"
     begin, end = (field.values[i].site for i in (first, last))

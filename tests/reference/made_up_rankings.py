@@ -27,6 +27,7 @@ def made_up(*groups: str, misfit: float = 20.0, dof: int = 20, z=(0.3, -0.4), na
         "strained": False,
         "variants": (),
         "telling": False,
+        "shown": True,
         "bearable": 1.5,
         "elsewhere": (),
         "c": np.zeros(len(groups)),

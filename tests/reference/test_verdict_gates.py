@@ -56,6 +56,7 @@ def proofs(monkeypatch):
     told = lambda one: SimpleNamespace(over_noise=gains.get(decided.group(one), 0.0)) if gains else None
     monkeypatch.setattr(asked, "held_out_density", told)
     monkeypatch.setattr(decided, "unmeasured_hz", lambda one: ())
+    monkeypatch.setattr(decided, "significant", lambda one: one.shown)
     return gains
 
 
@@ -74,6 +75,13 @@ def test_one_of_several_predicts_as_all_of_them(proofs, monkeypatch):
     several, one = judged(SPRING, made_up("mass"), BARE, p=(0.6, 0.399, 0.001)), judged(SPRING, BARE, p=(0.999, 0.001))
     assert several.kind == ONE_OF and several.proof is together
     assert one.kind == NAMED and one.proof is not together
+
+
+@pytest.mark.parametrize(("shown", "misfit", "kind"), [(True, 25.0, UNKNOWN), (False, 25.0, NOTHING), (False, 90.0, UNKNOWN)])
+def test_what_has_no_name_and_no_value_is_nothing_where_the_model_explains_the_data(proofs, shown, misfit, kind):
+    """Members that scatter by 1 % make a law at a tie probable, none of whose values is 2 sd: a control was an alarm."""
+    law, bare = made_up(nameless="law", shown=shown), made_up(misfit=misfit)
+    assert judged(law, SPRING, bare, p=(0.95, 0.046, 0.004)).kind == kind
 
 
 @pytest.mark.parametrize("left", [0.0, 1e-320, 1e-30])

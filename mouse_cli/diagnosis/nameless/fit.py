@@ -18,6 +18,7 @@ from mouse_cli.diagnosis.nameless.spring import best_spring
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.optima import NEAR, within
 from mouse_cli.model.diagnosis import Field, FieldValue, HeldOut
+from mouse_cli.model.field import SHOWN
 from mouse_cli.model.problem import Problem
 
 _STEPS, _TRIED = 25, 3  # of a fit; starts of a change of rank one
@@ -40,6 +41,12 @@ def field_of(ranking, one: Fit, held: HeldOut | None = None) -> Field:
     over, other = odds[id(one)] - named, getattr(one.model.base, "other", None)
     beside = other and _in_words(other.nameless, *values_of_other(one), over)
     return replace(_in_words(one.nameless, *mean_values(one), over), held_out=held, beside=beside)
+
+
+def significant(one: Fit) -> bool:
+    """Whether a value of the field of a fit differs from 0 by more than two standard deviations."""
+    values, sd = mean_values(one)
+    return bool((np.abs(values) > SHOWN * sd).any())
 
 
 def _in_words(field: Smooth, values: np.ndarray, sd: np.ndarray, over: float) -> Field:
