@@ -1,6 +1,8 @@
-"""Flexible supports of imported matrices, by name: each moves as a rigid body on springs, in one direction or in all."""
+"""Flexible supports of imported matrices, by name: each moves as a rigid body on springs, in one direction or in all, or in part.
+"""
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -23,6 +25,7 @@ from mouse_cli.model.held import Support
 
 _MOST = 24  # supports
 _FLEXIBLE = 48  # degrees of freedom up to which a support follows the structure as it deforms
+_NODES, _ADJACENT = 24, 4  # of a support, parts of which may be loose; nodes that are loose together, less than half of them
 _POINT = 1e-9  # of the size of the structure: extent of a support that cannot turn about itself
 
 
@@ -41,7 +44,7 @@ class Motions:
 
 
 def named(model: Reduced, candidate, turning: bool) -> list[Recipe]:
-    """A recipe for each support and direction, for each in all directions on a bed of springs, and for all supports alike."""
+    """A recipe for each support and direction, for each in all directions on a bed of springs, and for nodes of it side by side."""
     free = free_model(model)
     sets = _kinds(free, model.problem.held.supports[:_MOST], turning)
     if not sets:
@@ -50,13 +53,44 @@ def named(model: Reduced, candidate, turning: bool) -> list[Recipe]:
     s, pattern = _together(motions)
     motion = static(model, free, s, pattern)
     moved = followed(model, free, motion)
-    start, recipes = model.r, []
+    start, placed = 0, []
     for kind in sets:
+        placed.append([])
         for each in kind:
-            which = list(range(start - model.r, start - model.r + len(each.labels)))
-            recipes.append(_recipe(model, candidate, each, which, moved, len(kind) * len(sets), turning))
+            placed[-1].append((each, list(range(start, start + len(each.labels)))))
             start += len(each.labels)
-    return recipes
+    parts = [(part, [at[i] for i in own]) for each, at in placed[-1] * (not turning) for part, own in _parts(free, each)]
+    placed += [parts] if parts else []
+    return [
+        _recipe(model, candidate, each, which, moved, len(kind) * len(placed), turning)
+        for kind in placed
+        for each, which in kind
+    ]
+
+
+def _parts(free: Free, whole: Motions) -> Iterator[tuple[Motions, np.ndarray]]:
+    """Nodes side by side of a support that follows the structure as it deforms (bolts that are loose), and which of its columns."""
+    at = free.problem.structure.geometry
+    alone = np.count_nonzero(whole.pattern, axis=0) == 1
+    if at is None or not alone.all():
+        return
+    nodes = at.node[whole.support.dofs[whole.pattern.argmax(axis=0)]]
+    shifted = np.diag(whole.bed) > 0
+    own = np.unique(nodes[shifted & (nodes >= 0)])
+    if not 2 < len(own) <= _NODES:
+        return
+    x, seen = at.coordinates[own], set()
+    for centre in x:
+        order = own[np.argsort(np.linalg.norm(x - centre, axis=1), kind="stable")]
+        for count in range(1, min(_ADJACENT, (len(own) - 1) // 2) + 1):
+            some = tuple(sorted(order[:count].tolist()))
+            if some in seen:
+                continue
+            seen.add(some)
+            columns = np.flatnonzero(np.isin(nodes, some) & shifted)
+            names = f"node{'s' * (count > 1)} {', '.join(str(at.node_ids[i]) for i in some)} of it, all directions"
+            labels, bed = tuple(whole.labels[i] for i in columns), np.eye(len(columns)) / count
+            yield replace(whole, pattern=whole.pattern[:, columns], labels=labels, bed=bed, words=names), columns
 
 
 def _kinds(free: Free, supports: tuple[Support, ...], turning: bool) -> list[list[Motions]]:

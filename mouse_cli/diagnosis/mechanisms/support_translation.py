@@ -11,7 +11,8 @@ CANDIDATE = Candidate(
     "a translationally flexible support",
     "support",
     "what the model holds rigidly moves along the direction of a reaction (soil, bearing, test stand), at one support along one "
-    "axis or several, at a row or all alike, or at any of few along one axis or two, each with a stiffness of its own",
+    "axis or several, at a row or all alike, or at any of few along one axis or two, each with a stiffness of its own; of a named "
+    "support of matrices also a few nodes side by side: bolts that are loose",
     partial(yielding, turning=False),
     supports,
 )

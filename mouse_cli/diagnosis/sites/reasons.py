@@ -19,6 +19,8 @@ def bars(model: Any) -> str:
 def supports(model: Any) -> str:
     """Without a support that bears."""
     if model.motion is None or not model.problem.mesh.elements:
+        if model.problem.held is not None:
+            return f"{_MATRICES}: of its named supports only that they are flexible or loose is looked at"
         return f"{_MATRICES}, and model.supports names none: a spring to the ground stands for what holds it"
     kept = set(model.problem.mesh.directions)
     if not any(d in kept for _, d in model.problem.mesh.supports.tolist()):
