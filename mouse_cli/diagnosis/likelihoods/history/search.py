@@ -90,12 +90,8 @@ def weighed(study: Study, notice: Notice, known: list[Law] | None = None, causes
         return Weighed(baseline, [], quiet, baseline)
     if said := disturbed(study, baseline):
         return Weighed(baseline, [], quiet, baseline if noisy else None, otherwise=said)
-    if not noisy and (steady := tone(study.spectrum, study.base, study.places)) is not None:
-        return Weighed(baseline, [], otherwise=steady.said())
-    if not noisy and (when := changed(study)) is not None:
-        return Weighed(baseline, [], otherwise=when.said())
-    if not noisy and (other := drift(study) or saturated(study)) is not None:
-        return Weighed(baseline, [], otherwise=other.said())
+    if not noisy and (said := _beyond_laws(study)):
+        return Weighed(baseline, [], otherwise=said)
     dropped: dict[str, str] = {}
     found = undamped(study, shown(study, _singles(study, notice, known, baseline), dropped), dropped)
     best = min([baseline, *found], key=innovation)
@@ -110,6 +106,13 @@ def weighed(study: Study, notice: Notice, known: list[Law] | None = None, causes
         quiet = None if adequate(best) else _left(study, best)
     said = unmeasured(study, baseline) if innovation(best) > _TAKEN * innovation(baseline) else ""
     return Weighed(baseline, found, quiet, None if quiet is None else best, tuple(dropped.items()), said)
+
+
+def _beyond_laws(study: Study) -> str:
+    """What explains the records and is no law of a motion: a tone, a change, a drift, a channel that saturates; empty: none."""
+    steady = lambda study: tone(study.spectrum, study.base, study.places)
+    looks = steady, changed, drift, saturated
+    return next((found.said() for look in looks if (found := look(study)) is not None), "")
 
 
 def _left(study: Study, one: Fit) -> Noise | None:

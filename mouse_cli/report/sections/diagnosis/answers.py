@@ -85,9 +85,8 @@ def _where(found: Diagnosis) -> Iterator[Block]:
 
 def _by_shapes(found: Diagnosis) -> str:
     """What shapes say of the place; not that it is many, where one at one site explains the data: it need not act by one force."""
-    field = found.field
     single = any(len(one.causes) == 1 for one in ([found.best] if found.kind == NAMED else leaders(found)))
-    single = single or (found.kind == UNKNOWN and field is not None and field.property == LAW and field.beside is None)
+    single = single or (found.kind == UNKNOWN and found.field is not None and found.field.property == LAW)
     return "" if single and found.location is not None and not found.location.single else _location(found.location)
 
 
