@@ -1,5 +1,6 @@
 """What every candidate must keep: its change of the reduced model is what the deck it writes has, and that deck reads back."""
 
+from collections import Counter
 from dataclasses import replace
 
 import numpy as np
@@ -10,6 +11,7 @@ from scipy.linalg import eigh
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.mechanisms import registry
+from mouse_cli.diagnosis.search import superposed
 from mouse_cli.formats import read_deck, write_deck
 from mouse_cli.model.arrays import dense
 from mouse_cli.terms.assembly import assembly
@@ -402,7 +404,13 @@ def test_twice_the_size_makes_twice_of_what_is_proportional_to_it(models):
 
 
 def test_every_candidate_acts_somewhere(models):
-    acting = {key for model in map(models.__getitem__, MODELS) for key, c in registry().items() if c.recipes(model, c)}
+    """Under names of its own: what acts at one place is known by that among all of a candidate."""
+    acting = set()
+    for name, model in ((name, models[name]) for name in MODELS):
+        for key, candidate in registry().items():
+            places = Counter(superposed.text(recipe) for recipe in candidate.recipes(model, candidate))
+            assert all(count == 1 for count in places.values()), (name, key, places.most_common(3))
+            acting |= {key} if places else set()
     assert acting == set(registry())
 
 

@@ -13,6 +13,7 @@ from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.bars import Bars
 from mouse_cli.diagnosis.sites.lines import Line
 from mouse_cli.diagnosis.sites.points import wanted
+from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.elements import _beam as beam
 
@@ -50,11 +51,12 @@ def places(
     starts: np.ndarray,
     extend: Callable[[Problem, int, float, np.ndarray], Problem],
     chosen: list[Line],
+    axes: str = "",
 ) -> list[Recipe]:
     """A recipe for each of the lines of bars `chosen`: what a hinge of `sizes` does at a share of a bar, does(bar, share, values).
 
     starts (g,) or (g, t): sizes to begin from, at every place.
-    extend(problem, bar, share, values): the deck with that in it.
+    extend(problem, bar, share, values): the deck with that in it. axes: about which it turns, where these are several.
     """
     found = []
     total = sum(line.length for line in chosen)
@@ -62,13 +64,18 @@ def places(
         where = Unknown(PLACE, "m", 0.0, line.length, log=False)
         at = line.starts(_STARTS, line.length / total)
         change = lambda values, line=line: does(*line.at(values[-1]), values[:-1])
-        site = lambda values, line=line: line.site(values[-1])
+        site = lambda values, line=line: _about(line.site(values[-1]), axes or line.about)
         extended = lambda problem, values, line=line: extend(problem, *line.at(values[-1]), values[:-1])
         prior = float(np.log(line.length / total))
         grid = np.hstack([np.repeat(starts.reshape(len(starts), -1), len(at), axis=0), np.tile(at, len(starts))[:, None]])
         recipe = Recipe(candidate, (*sizes, where), change, grid, site, log_prior=prior, extend=extended)
         found.append(replace(recipe, jumps={len(sizes): line.inner}))
     return found
+
+
+def _about(site: Site, axes: str) -> Site:
+    """A place with the axes about which it turns, where it may turn about several."""
+    return replace(site, text=f"{site.text}, {axes}") if axes else site
 
 
 def hinged(bars: Bars, bar: int, share: float, added: np.ndarray) -> Change:

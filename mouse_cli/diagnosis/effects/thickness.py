@@ -67,7 +67,7 @@ def _projected(model: Reduced, name: str) -> dict[int, _Powers]:
 
 def _recipe(candidate, group: ElementGroup, K: _Powers, M: _Powers, count: int, sign: int) -> Recipe:
     thickness, unknown = group.thickness, _LOST if sign < 0 else _GAINED
-    site = Site("dof", (), None, text(group))
+    site = Site("dof", (), None, f"{text(group)}{', its thickness' * (sign > 0)}")  # its stiffness may grow alone too
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         name, size = THICKNESS.format(group.name), 1 + sign * values[0]

@@ -11,7 +11,6 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.bars import Bars
 from mouse_cli.diagnosis.sites.lines import elements
-from mouse_cli.diagnosis.sites.stretches import bends_both_ways
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.terms.elements import _beam as beam
 
@@ -26,17 +25,18 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
         return []
     bars = model.bars
     whole = [(found, (0, 1))] if len(set(bars.plane.tolist())) > 1 else []
-    parts = whole + [(found, (plane,)) for plane in sorted(set(bars.plane.tolist()))]
-    if len(found) > 1:
-        parts += [([line], (int(bars.plane[line.members[0]]),)) for line in found]
-    share = np.where(np.arange(len(parts)) < len(parts) - len(found), 1.0, 1.0 / len(found))
+    plane = [int(bars.plane[line.members[0]]) for line in found]
+    parts = whole + [(found, (each,)) for each in sorted(set(bars.plane.tolist()))]
+    alone = [([line], (each,)) for line, each in zip(found, plane, strict=True) if plane.count(each) > 1]
+    share = np.append(np.ones(len(parts)), np.full(len(alone), 1 / max(len(alone), 1)))
     share *= (1 - _PART) / share.sum()
+    parts += alone
     along = [
         _recipe(model, candidate, some, planes, float(np.log(one)))
         for (some, planes), one in zip(parts, share, strict=True)
     ]
     ended = [(line, (int(bars.plane[line.members[0]]),)) for line in found]
-    ended += [(line, (0, 1)) for line in found if not bars.plane[line.members[0]] and bends_both_ways(line)]
+    ended += [(line, (0, 1)) for line in found if not bars.plane[line.members[0]] and line.both_ways]
     beds = [(LineIntegral(line, across if len(planes) > 1 else deflections), planes) for line, planes in ended[:_MOST]]
     one, both = (float(np.log(part / len(beds))) for part in (_PART * (1 - _PART) / 2, _PART**2))
     under_ends = [partly(candidate, *bed, _found(*bed), back, one) for bed in beds for back in (False, True)]

@@ -13,8 +13,8 @@ from mouse_cli.diagnosis.effects.hinges import hinged, joint_stiffness, lines, p
 from mouse_cli.diagnosis.effects.twisted import Torsion, torsion, twisted
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
-from mouse_cli.diagnosis.sites.bars import ABOUT, Bars
-from mouse_cli.diagnosis.sites.lines import Line
+from mouse_cli.diagnosis.sites.bars import Bars
+from mouse_cli.diagnosis.sites.lines import ABOUT, Line
 from mouse_cli.diagnosis.sites.reasons import bars
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.groups import enumerated
@@ -109,17 +109,9 @@ def _spliced(
 
     starts = np.column_stack([steps(k, _STARTS if len(axes) == 1 else _ALIKE)] * len(axes))
     sizes = tuple(replace(k, name=name) for name in names)
-    made = places(model, candidate, sizes, does, starts, extend, chosen)
-    about = f", about {enumerated(axes)}" if len(axes) > 1 else ""
-    return [
-        replace(one, limit=_root(model, line), site=lambda values, site=one.site: _about(site(values), about))
-        for one, line in zip(made, chosen, strict=True)
-    ]
-
-
-def _about(site: Site, axes: str) -> Site:
-    """A place with the axes about which it turns, where there are several."""
-    return replace(site, text=site.text + axes)
+    about = f"about {enumerated(axes)}" if len(axes) > 1 else ""
+    made = places(model, candidate, sizes, does, starts, extend, chosen, about)
+    return [replace(one, limit=_root(model, line)) for one, line in zip(made, chosen, strict=True)]
 
 
 def _root(model: Reduced, line: Line) -> Callable[[np.ndarray], str]:

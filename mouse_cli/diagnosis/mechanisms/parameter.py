@@ -71,7 +71,8 @@ def _recipe(
 ) -> Recipe:
     name, mesh = model.problem.parameters[j].name, model.problem.mesh
     ids = tuple(sorted({int(mesh.elements[b.set].ids[i]) for b in bindings for i in b.members}))
-    site = Site("element", ids, None, f"parameter '{name}'")
+    far = by > _narrow(model, j)
+    site = Site("element", ids, None, f"parameter '{name}'{', further than it is uncertain' * far}")
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         edit = Edit(problem)

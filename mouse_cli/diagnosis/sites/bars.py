@@ -23,7 +23,6 @@ from mouse_cli.terms.elements import _beam as beam
 from mouse_cli.terms.elements.beam import local
 
 _BENDING, _STEP = ("E", "Iy", "Iz"), 1e-4  # properties that bending stiffness follows; step in them
-ABOUT = "local z", "local y"  # the axis about which a bar bends in each plane
 _STIFF = 1e-9  # share of the largest bending stiffness below which a bar does not bend in that plane
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from mouse_cli.model.diagnosis import Site
 
+ABOUT = "local z", "local y"  # the axis about which a bar bends in each plane
 STRAIGHT = 0.999  # cosine of the angle between bars of one line
 
 
@@ -44,6 +45,17 @@ class Line:
     def extent(self) -> np.ndarray:
         """Lengths (c,) of the bars."""
         return self.bars.length[self.members]
+
+    @cached_property
+    def both_ways(self) -> bool:
+        """Whether all of its bars bend in two planes."""
+        element = zip(self.bars.set[self.members].tolist(), self.bars.member[self.members].tolist(), strict=True)
+        return all(len(self.bars.twins[each]) == 2 for each in element)
+
+    @property
+    def about(self) -> str:
+        """The axis about which it bends, where it bends in two planes; else nothing."""
+        return f"about {ABOUT[self.bars.plane[self.members[0]]]}" if self.both_ways else ""
 
     def parted(self, nodes: set[int]) -> list["Line"]:
         """Its parts between `nodes` (indices) that it passes."""

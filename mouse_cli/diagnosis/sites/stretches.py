@@ -8,7 +8,6 @@ from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.extend.places import beams_within, element_at
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
-from mouse_cli.diagnosis.sites.bars import ABOUT
 from mouse_cli.diagnosis.sites.lines import Line
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.problem import Problem
@@ -25,7 +24,7 @@ def of_lines(model: Reduced, candidate: Candidate, stiffer: bool = False) -> lis
 
 def in_both_planes(model: Reduced, candidate: Candidate, stiffer: bool = False) -> list[Recipe]:
     """The same for each row of bars that bends in two planes, in both alike: of another material, or by another wall."""
-    rows = [line for line in lines(model) if not line.bars.plane[line.members[0]] and bends_both_ways(line)]
+    rows = [line for line in lines(model) if not line.bars.plane[line.members[0]] and line.both_ways]
     return _over(rows, candidate, stiffer, both=True)
 
 
@@ -34,11 +33,6 @@ def _over(chosen: list[Line], candidate: Candidate, stiffer: bool, both: bool) -
     total = sum(line.length for line in chosen)
     widest = _WIDEST if len(chosen) == 1 else 1.0
     return [_recipe(candidate, line, line.length / total, widest, stiffer, both) for line in chosen]
-
-
-def bends_both_ways(line: Line) -> bool:
-    """Whether all of its bars bend in two planes."""
-    return all(len(planes) == 2 for planes in _planes(line, line.members))
 
 
 def _planes(line: Line, members: np.ndarray) -> list[list[int]]:
@@ -52,8 +46,7 @@ def _recipe(candidate: Candidate, line: Line, share: float, widest: float, stiff
     d = Unknown("stiffness added" if stiffer else "flexibility added", "1", 0.02, 3.0)
     w = Unknown("width over length", "1", 0.05, widest)
     x = Unknown(PLACE, "m", 0.0, L, log=False)
-    about = f", bending about {ABOUT[line.bars.plane[line.members[0]]]}" if bends_both_ways(line) else ""
-    plane = ", in both planes" if both else about
+    plane = ", in both planes" if both else f", bending {line.about}" if line.about else ""
 
     def change(values: np.ndarray) -> Change:
         touched, a, b = covered(line, *stretch(line, values))
