@@ -120,6 +120,8 @@ LONG: dict[str, tuple[str, ...]] = {
     "reference/test_arrangements.py": ("test_errors_that_all_share_are_no_cause", "test_what_changed_is_sought_in_what_changed"),
     "reference/test_bearings_and_joints.py": (
         "test_a_seized_bearing_below_the_axis_holds_beside_it", "test_a_joint_that_twists_as_well",
+        "test_a_sensor_of_three_axes_that_is_mounted_turned[270 degrees]",
+        "test_a_sensor_of_three_axes_that_is_mounted_turned[180 degrees]",
     ),
     "reference/test_campaigns.py": ("test_a_sweep_that_is_killed_goes_on_and_ends_like_an_unbroken_one",),
     "reference/test_campaigns_records.py": ("test_stretches_of_a_record_spread_as_its_noise_does",),
