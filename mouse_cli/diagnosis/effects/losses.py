@@ -1,10 +1,12 @@
 """Elements other than bars, springs between degrees of freedom, and groups of matrix elements, that lose or gain stiffness."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from mouse_cli.diagnosis.effects import element_sets
 from mouse_cli.diagnosis.effects.change import LOST, Change, Recipe, Unknown
-from mouse_cli.diagnosis.effects.of_sets import matrices_of
+from mouse_cli.diagnosis.effects.of_sets import Growth, matrices_of
 from mouse_cli.diagnosis.effects.rows import runs
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.extend.matrices import Entries, of_matrices, with_entries
@@ -36,7 +38,8 @@ def of_elements(model: Reduced, candidate: Candidate, sign: int = -1, directed: 
     sets = _strained(model, _mounts(model, found)) + _runs(model, found) if directed else []
     count = len({each[:2] for each in found}) + len(sets)
     parts = [((each[:2],), *each[2:]) for each in _strained(model, found)] + sets
-    return [_elements(model, candidate, each, count, sign) for each in parts]
+    growth = Growth(model)
+    return [replace(_elements(model, candidate, each, count, sign), grows=growth.of(each[0])) for each in parts]
 
 
 def loosened(model: Reduced) -> np.ndarray:

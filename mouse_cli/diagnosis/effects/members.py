@@ -9,7 +9,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.effects.change import LOST, Change, Recipe, Unknown, steps
 from mouse_cli.diagnosis.effects.element_sets import missing
-from mouse_cli.diagnosis.effects.of_sets import OfSets, matrices_of
+from mouse_cli.diagnosis.effects.of_sets import Growth, OfSets, matrices_of
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.gates import WHOLLY
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
@@ -46,7 +46,7 @@ def of_members(model: Reduced, candidate: Candidate, sign: int = -1) -> list[Rec
     if model.motion is None:
         return missing(model, candidate) if sign < 0 else []
     parts: dict[int, Part] = {}
-    sets = OfSets()
+    sets, growth = OfSets(), Growth(model)
     bare = {member.elements: member for member in rods(model.problem.mesh)}
     listed = (*members(model.problem.mesh), *bare.values())
     found = [(member, energy(model, member, parts)) for member in listed]
@@ -58,13 +58,13 @@ def of_members(model: Reduced, candidate: Candidate, sign: int = -1) -> list[Rec
         K, M = (summed(member, parts, which) for which in (1, 2))
         heavy = bool(np.abs(M).max() > 0)
         share = -float(np.log(len(set(kinds)) * kinds.count(member.kind) * (1 + heavy)))
-        beyond = _beyond(model, member, sets, sign)
+        beyond, grows = _beyond(model, member, sets, sign), growth.of(member.elements)
         if member.elements not in bare:
-            recipes.append(_recipe(candidate, member, (sign * K, beyond), None, sign, share, model.problem))
+            recipes.append(_recipe(candidate, member, (sign * K, beyond), None, sign, share, model.problem, grows))
         if heavy:
             most = np.inf if sign > 0 else _BALANCED
             alike = beyond and (lambda share, beyond=beyond, most=most: beyond(min(share, most)))
-            recipes.append(_recipe(candidate, member, (sign * K, alike), sign * M, sign, share, model.problem))
+            recipes.append(_recipe(candidate, member, (sign * K, alike), sign * M, sign, share, model.problem, grows))
     return recipes
 
 
@@ -147,8 +147,9 @@ def _recipe(
     sign: int,
     share: float,
     deck: Problem,
+    grows: tuple[np.ndarray, np.ndarray],
 ) -> Recipe:
-    """stiff: K that is added for a share of 1, and what goes beyond it; M: for a share of 1."""
+    """stiff: K that is added for a share of 1, and what goes beyond it; M: for a share of 1; grows: see `Growth`."""
     K, beyond = stiff
     d, site = _GAINED if sign > 0 else _LOST if M is None else _GONE, member.site
     kind, beside = deck.mesh.elements[member.elements[0][0]].type, "" if M is None else ", its mass alike"
@@ -176,6 +177,7 @@ def _recipe(
         lambda values: site,
         log_prior=share,
         extend=extend,
+        grows=grows,
         title=lambda values: "a missing member" if values[0] > 1 - GONE and M is not None and sign < 0 else "",
     )
 

@@ -1,12 +1,15 @@
 """Matrices of element sets at the parameters where causes are weighed."""
 
 from collections.abc import Iterable
+from dataclasses import replace
 
 import numpy as np
 
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.terms.bound_properties import BoundProperties, nominal_properties
 from mouse_cli.terms.elements import Layout, Matrices, registry
+
+_STEP = 1e-4  # of a parameter, in differences
 
 
 def matrices_of(model: Reduced, s: int, exchanged: Iterable[tuple[str, str]] = (), **instead: float) -> Matrices:
@@ -44,3 +47,38 @@ class OfSets:
             if (s, theta) not in self._found:
                 self._found[s, theta] = matrices_of(model, s)["K"]
         return np.array([self._found[s, theta][i] for s, i in elements])
+
+
+class Growth:
+    """How K and M of elements grow with each parameter of the deck, over what they are: those of a set found once.
+
+    What takes all of a member away takes all of it at any E and density; what its section only carries is none of M.
+    """
+
+    def __init__(self, model: Reduced) -> None:
+        self._model = model
+        self._found: dict[int, tuple[np.ndarray, np.ndarray]] = {}
+
+    def of(self, elements: Iterable[tuple[int, int]]) -> tuple[np.ndarray, np.ndarray]:
+        """Of `elements`, by set and place in it: of K and of M (p,), the multiples of them that come nearest."""
+        along, size = (sum(part) for part in zip(*(self._at(*each) for each in elements), strict=True))
+        grows = along / np.maximum(size, 1e-300)[:, None]
+        return grows[0], grows[1]
+
+    def _at(self, s: int, i: int) -> tuple[np.ndarray, np.ndarray]:
+        """<dX/dtheta, X> (2, p) and <X, X> (2,) of K and M of one element."""
+        if s not in self._found:
+            self._found[s] = self._of_set(s)
+        along, size = self._found[s]
+        return along[:, :, i], size[:, i]
+
+    def _of_set(self, s: int) -> tuple[np.ndarray, np.ndarray]:
+        model, own = self._model, matrices_of(self._model, s, nonstructural_mass=0.0)
+        size = np.array([(own[name] ** 2).sum(axis=(1, 2)) for name in "KM"])
+        along = np.zeros((2, len(model.theta), size.shape[1]))
+        for j in {b.parameter for b in model.problem.bindings if b.set == s}:
+            step = _STEP * (abs(model.theta[j]) or 1.0)
+            moved = replace(model, theta=model.theta + step * (np.arange(len(model.theta)) == j))
+            there = matrices_of(moved, s, nonstructural_mass=0.0)
+            along[:, j] = [((there[name] - own[name]) * own[name]).sum(axis=(1, 2)) / step for name in "KM"]
+        return along, size

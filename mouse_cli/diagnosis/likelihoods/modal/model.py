@@ -186,7 +186,8 @@ class Model(Carrying):
             inertia[:k] += np.einsum("prm,rm->pm", moved, u)
         for i, by_K, by_M, change in growing(self, at.x):
             own = self.own_of(i, u)
-            stiff, moved = by_K[:, None, None] * (change.K @ own), by_M[:, None, None] * (change.M @ own)
+            each = ((by[:, None, None], m) for by, m in ((by_K, change.K), (by_M, change.M)))
+            stiff, moved = (np.zeros((k, *own.shape)) if m is None else by * (m @ own) for by, m in each)
             self.lift(i, stiff - moved * lam, forces[:k])
             inertia[:k] += np.einsum("prm,rm->pm", moved, own)
 
