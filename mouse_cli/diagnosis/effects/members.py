@@ -4,6 +4,7 @@ In the coordinates of a large model, what they leave out of a member deforms wit
 """
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
@@ -58,13 +59,14 @@ def of_members(model: Reduced, candidate: Candidate, sign: int = -1) -> list[Rec
         K, M = (summed(member, parts, which) for which in (1, 2))
         heavy = bool(np.abs(M).max() > 0)
         share = -float(np.log(len(set(kinds)) * kinds.count(member.kind) * (1 + heavy)))
-        beyond, grows = _beyond(model, member, sets, sign), growth.of(member.elements)
+        beyond, made = _beyond(model, member, sets, sign), []
         if member.elements not in bare:
-            recipes.append(_recipe(candidate, member, (sign * K, beyond), None, sign, share, model.problem, grows))
+            made.append(_recipe(candidate, member, (sign * K, beyond), None, sign, share, model.problem))
         if heavy:
             most = np.inf if sign > 0 else _BALANCED
             alike = beyond and (lambda share, beyond=beyond, most=most: beyond(min(share, most)))
-            recipes.append(_recipe(candidate, member, (sign * K, alike), sign * M, sign, share, model.problem, grows))
+            made.append(_recipe(candidate, member, (sign * K, alike), sign * M, sign, share, model.problem))
+        recipes += [replace(each, grows=growth.of(member.elements)) for each in made]
     return recipes
 
 
@@ -147,9 +149,8 @@ def _recipe(
     sign: int,
     share: float,
     deck: Problem,
-    grows: tuple[np.ndarray, np.ndarray],
 ) -> Recipe:
-    """stiff: K that is added for a share of 1, and what goes beyond it; M: for a share of 1; grows: see `Growth`."""
+    """stiff: K that is added for a share of 1, and what goes beyond it; M: for a share of 1."""
     K, beyond = stiff
     d, site = _GAINED if sign > 0 else _LOST if M is None else _GONE, member.site
     kind, beside = deck.mesh.elements[member.elements[0][0]].type, "" if M is None else ", its mass alike"
@@ -177,7 +178,6 @@ def _recipe(
         lambda values: site,
         log_prior=share,
         extend=extend,
-        grows=grows,
         title=lambda values: "a missing member" if values[0] > 1 - GONE and M is not None and sign < 0 else "",
     )
 

@@ -74,11 +74,12 @@ class Growth:
 
     def _of_set(self, s: int) -> tuple[np.ndarray, np.ndarray]:
         model, own = self._model, matrices_of(self._model, s, nonstructural_mass=0.0)
-        size = np.array([(own[name] ** 2).sum(axis=(1, 2)) for name in "KM"])
+        size = np.array([(own[name] ** 2).sum(axis=(1, 2)) if name in own else np.zeros(len(own["K"])) for name in "KM"])
         along = np.zeros((2, len(model.theta), size.shape[1]))
         for j in {b.parameter for b in model.problem.bindings if b.set == s}:
             step = _STEP * (abs(model.theta[j]) or 1.0)
             moved = replace(model, theta=model.theta + step * (np.arange(len(model.theta)) == j))
             there = matrices_of(moved, s, nonstructural_mass=0.0)
-            along[:, j] = [((there[name] - own[name]) * own[name]).sum(axis=(1, 2)) / step for name in "KM"]
+            for n, name in enumerate(name for name in "KM" if name in own):  # springs have no M
+                along[n, j] = ((there[name] - own[name]) * own[name]).sum(axis=(1, 2)) / step
         return along, size
