@@ -10,7 +10,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.effects.change import LOST, Change, Recipe, Unknown, steps
 from mouse_cli.diagnosis.effects.element_sets import missing
-from mouse_cli.diagnosis.effects.of_sets import Growth, OfSets, matrices_of
+from mouse_cli.diagnosis.effects.of_sets import Growth, OfSets, of_section
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.gates import WHOLLY
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
@@ -108,7 +108,7 @@ def _borne(model: Reduced, member: Member, parts: dict[int, Part]) -> tuple[np.n
 
 def of_set(model: Reduced, s: int) -> Part:
     """See `Part`; M without what the section only carries."""
-    found = matrices_of(model, s, nonstructural_mass=0.0)
+    found = of_section(model, s)
     elements = model.problem.mesh.elements[s]
     u = displacements(model.motion, elements.nodes, model.V)
     M = found["M"] if elements.type in SLENDER else np.zeros_like(found["K"])

@@ -1,6 +1,6 @@
 """Matrices of element sets at the parameters where causes are weighed."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 
 import numpy as np
@@ -49,14 +49,19 @@ class OfSets:
         return np.array([self._found[s, theta][i] for s, i in elements])
 
 
+def of_section(model: Reduced, s: int) -> Matrices:
+    """Matrices of the elements of set s without what their section only carries."""
+    return matrices_of(model, s, nonstructural_mass=0.0)
+
+
 class Growth:
     """How K and M of elements grow with each parameter of the deck, over what they are: those of a set found once.
 
-    What takes all of a member away takes all of it at any E and density; what its section only carries is none of M.
+    What takes all of a member away takes all of it at any E and density. part(model, s): what of the elements of a set.
     """
 
-    def __init__(self, model: Reduced) -> None:
-        self._model = model
+    def __init__(self, model: Reduced, part: Callable[[Reduced, int], Matrices] = of_section) -> None:
+        self._model, self._part = model, part
         self._found: dict[int, tuple[np.ndarray, np.ndarray]] = {}
 
     def of(self, elements: Iterable[tuple[int, int]]) -> tuple[np.ndarray, np.ndarray]:
@@ -73,13 +78,15 @@ class Growth:
         return along[:, :, i], size[:, i]
 
     def _of_set(self, s: int) -> tuple[np.ndarray, np.ndarray]:
-        model, own = self._model, matrices_of(self._model, s, nonstructural_mass=0.0)
-        size = np.array([(own[name] ** 2).sum(axis=(1, 2)) if name in own else np.zeros(len(own["K"])) for name in "KM"])
-        along = np.zeros((2, len(model.theta), size.shape[1]))
-        for j in {b.parameter for b in model.problem.bindings if b.set == s}:
+        """The same of all elements (2, p, e) and (2, e); springs have no M."""
+        model, own = self._model, self._part(self._model, s)
+        along, size = np.zeros((2, len(model.theta), len(own["K"]))), np.zeros((2, len(own["K"])))
+        moves = {b.parameter for b in model.problem.bindings if b.set == s}
+        for n, name in enumerate(name for name in "KM" if name in own):
+            size[n] = (own[name] ** 2).sum(axis=(1, 2))
+        for j in moves:
             step = _STEP * (abs(model.theta[j]) or 1.0)
-            moved = replace(model, theta=model.theta + step * (np.arange(len(model.theta)) == j))
-            there = matrices_of(moved, s, nonstructural_mass=0.0)
-            for n, name in enumerate(name for name in "KM" if name in own):  # springs have no M
+            there = self._part(replace(model, theta=model.theta + step * (np.arange(len(model.theta)) == j)), s)
+            for n, name in enumerate(name for name in "KM" if name in own):
                 along[n, j] = ((there[name] - own[name]) * own[name]).sum(axis=(1, 2)) / step
         return along, size

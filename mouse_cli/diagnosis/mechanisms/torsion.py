@@ -3,11 +3,13 @@
 K + (r - 1) K_J, K_J of their torsion constants alone.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
 from mouse_cli.diagnosis.effects.members import Part, energy, summed
-from mouse_cli.diagnosis.effects.of_sets import matrices_of
+from mouse_cli.diagnosis.effects.of_sets import Growth, matrices_of
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
@@ -34,7 +36,9 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     chosen = [found[i][0] for i in sorted(order.tolist()) if found[i][1] > _FELT]
     kinds = [member.kind for member in chosen]
     share = [-float(np.log(len(set(kinds)) * kinds.count(kind))) for kind in kinds]
-    return [_recipe(model, candidate, member, parts, own) for member, own in zip(chosen, share, strict=True)]
+    made = [_recipe(model, candidate, member, parts, own) for member, own in zip(chosen, share, strict=True)]
+    growth = Growth(model, lambda there, s: {"K": _stiffness(there, s)})
+    return [replace(one, grows=growth.of(member.elements)) for one, member in zip(made, chosen, strict=True)]
 
 
 def _of_beams(mesh: Mesh) -> list[Member]:
@@ -55,8 +59,13 @@ def _of_beams(mesh: Mesh) -> list[Member]:
 
 def _torsion(model: Reduced, s: int) -> Part:
     """Motion of the nodes of a set, K of its torsion, and no M."""
-    K = matrices_of(model, s)["K"] - matrices_of(model, s, J=0.0)["K"]
+    K = _stiffness(model, s)
     return displacements(model.motion, model.problem.mesh.elements[s].nodes, model.V), K, np.zeros_like(K)
+
+
+def _stiffness(model: Reduced, s: int) -> np.ndarray:
+    """K_J (e, 12, 12) of the elements of a set."""
+    return matrices_of(model, s)["K"] - matrices_of(model, s, J=0.0)["K"]
 
 
 def _recipe(model: Reduced, candidate: Candidate, member: Member, parts: dict[int, Part], log_prior: float) -> Recipe:
@@ -65,7 +74,7 @@ def _recipe(model: Reduced, candidate: Candidate, member: Member, parts: dict[in
     nodes = np.array([mesh.elements[s].nodes[i] for s, i in member.elements])
 
     def stiffness(there: Reduced) -> np.ndarray:
-        whole = {s: _torsion(there, s)[1] for s in {s for s, _ in member.elements}}
+        whole = {s: _stiffness(there, s) for s in {s for s, _ in member.elements}}
         return np.array([whole[s][i] for s, i in member.elements])
 
     left, K = left_out(model, ("torsion constant", member.elements), nodes, stiffness), summed(member, parts, 1)
