@@ -144,7 +144,7 @@ MUTANTS = (
             "test_a_mode_of_its_own_is_seen_first",
         ),
         not_believed_and_yet_missing=(
-            "(believed and none < DEMANDED)",
+            "(shown and none < DEMANDED)",
             "none < DEMANDED",
             "test_a_test_that_is_not_believed_is_no_reason",
         ),

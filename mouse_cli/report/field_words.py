@@ -88,17 +88,18 @@ def _tells(one: FieldValue) -> bool:
 
 
 def core(values: Sequence[FieldValue], shares: bool) -> tuple[int, int, int]:
-    """First, largest and last of the neighbours, of one sign, that have more than half of the largest value.
+    """First, largest and last of the neighbours, of one sign, that have more than half of the largest value, of those that tell.
 
-    shares: of a whole, compared by their logarithms: what lost 78 % has changed by more than what gained 88 %.
+    shares: of a whole, of which the largest is by its logarithm: what lost 78 % has changed by more than what gained 88 %.
 
     >>> from mouse_cli.model.site import Site
     >>> core([FieldValue(Site("element", (i,)), x, 0.01) for i, x in enumerate((0.0, -0.2, -0.3, -0.1, 0.35))], True)
     (1, 2, 2)
     """
-    size = [log1p(max(each.value, _LOST)) if shares else each.value for each in values]
-    top = max(range(len(size)), key=lambda i: abs(size[i]))
-    belongs = lambda i: size[i] * size[top] > _MOST * size[top] ** 2
+    size = [abs(log1p(max(each.value, _LOST))) if shares else abs(each.value) for each in values]
+    telling = [i for i, each in enumerate(values) if _tells(each)] or range(len(values))
+    top = max(telling, key=lambda i: size[i])
+    belongs = lambda i: values[i].value * values[top].value > _MOST * values[top].value ** 2
     first, last = top, top
     while first > 0 and belongs(first - 1):
         first -= 1
