@@ -19,6 +19,11 @@ class FieldValue:
     value: float
     sd: float
 
+    @property
+    def shown(self) -> bool:
+        """Whether it differs from 0."""
+        return abs(self.value) > SHOWN * self.sd
+
 
 @dataclass(frozen=True)
 class Field:

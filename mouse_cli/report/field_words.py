@@ -4,7 +4,6 @@ from collections.abc import Sequence
 from math import log1p
 
 from mouse_cli.model.diagnosis import AXIAL, BED, COMPLIANCE, FORCE, LAW, MASS, STIFFNESS, Field, FieldValue, HeldOut
-from mouse_cli.model.field import SHOWN
 from mouse_cli.report.sections._diagnosis_wording import nats, place
 
 ACTS = {
@@ -79,12 +78,7 @@ def amount(field: Field, value: float) -> str:
 
 def significant(field: Field) -> list[FieldValue]:
     """Values that differ from 0 by more than two standard deviations, in their order; the largest where none does."""
-    return [each for each in field.values if _tells(each)] or sorted(field.values, key=lambda each: -abs(each.value))[:1]
-
-
-def _tells(one: FieldValue) -> bool:
-    """Whether a value differs from 0 by more than two standard deviations."""
-    return abs(one.value) > SHOWN * one.sd
+    return [each for each in field.values if each.shown] or sorted(field.values, key=lambda each: -abs(each.value))[:1]
 
 
 def core(values: Sequence[FieldValue], shares: bool) -> tuple[int, int, int]:
@@ -97,7 +91,7 @@ def core(values: Sequence[FieldValue], shares: bool) -> tuple[int, int, int]:
     (1, 2, 2)
     """
     size = [abs(log1p(max(each.value, _LOST))) if shares else abs(each.value) for each in values]
-    telling = [i for i, each in enumerate(values) if _tells(each)] or range(len(values))
+    telling = [i for i, each in enumerate(values) if each.shown] or range(len(values))
     top = max(telling, key=lambda i: size[i])
     belongs = lambda i: values[i].value * values[top].value > _MOST * values[top].value ** 2
     first, last = top, top
@@ -136,7 +130,7 @@ def _most(field: Field) -> str:
     """
     if not field.values:
         return ""
-    if not any(map(_tells, field.values)):
+    if not any(each.shown for each in field.values):
         return ", nowhere by more than two standard deviations"
     first, top, last = core(field.values, field.property in (STIFFNESS, MASS))
     largest = field.values[top]

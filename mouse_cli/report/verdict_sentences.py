@@ -30,7 +30,7 @@ def sentences(found: Diagnosis) -> tuple[str, ...]:
     """What was found, the first sentence first."""
     if found.kind == NOTHING:
         possible = _possible(found)
-        return tuple(filter(None, (_nothing(found, bool(possible)), possible)))
+        return tuple(filter(None, (_nothing(found, possible), possible)))
     if found.kind == NAMED:
         return _named(found)
     if found.kind == ONE_OF:
@@ -43,15 +43,14 @@ def faulty(best: Explanation) -> bool:
     return all(cause.site.kind == "sensor" for cause in best.causes)
 
 
-def _nothing(found: Diagnosis, open_: bool) -> str:
-    """open_: whether something is more probable than that nothing is missing."""
+def _nothing(found: Diagnosis, possible: str) -> str:
+    """possible: what is more probable than that nothing is missing; empty: nothing."""
     if isinstance(found, RecordDiagnosis):
         sentence = "Nothing is missing that these records could show: the linear model, with its parameters revised, explains them"
         return f"{sentence}{' but for noise of their own' if found.noise else ''}."
     status = found.result.status
-    begin = "Nothing is missing that this test could show"
-    if open_:
-        begin = "This test does not show that something is missing, nor that nothing is"
+    shown = "This test does not show that something is missing, nor that nothing is"
+    begin = shown if possible else "Nothing is missing that this test could show"
     sentence = f"{begin}: the model, with its parameters revised, explains the data."
     if not found.result.residual.dof:
         sentence = (

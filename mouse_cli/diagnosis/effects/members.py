@@ -27,13 +27,13 @@ _HELD = 1e-6  # share of the energy of a mode below which a member has no part i
 _FEW, _WAYS = 24, 2  # ways that a search in few coordinates knows members to soften in, and of one member
 _TELLS = 0.01  # share of an eigenvalue that is lost with such a member, at least
 _LOST, _GAINED = Unknown(LOST, "1", 0.02, 0.99), Unknown("share gained", "1", 0.02, 20.0)
-# Of a member that is missing, its mass alike: a hundredth of a diagonal is as stiff as the chords that do what it did, and what is
-# left of it hardly is a tuned mass in members like it, whose modes it splits by the root of its mass over theirs.
+# Of a member that is missing, its mass alike: a hundredth of a diagonal is as stiff as the chords that do what it did.
 _GONE = Unknown(LOST, "1", 0.02, 1 - 1e-7, at_end=WHOLLY)
 _STIFF = {"beam": ("E",), "rod": ("E",), "storey": DIRECTIONS}
 # Share of a member lost with its mass up to which what the coordinates leave out of it follows: it has inertia, by which what the
 # member holds alone swings as before however little of it is left, and static it would all but stand still.
 _BALANCED = 0.9
+_LAST = 1e-5  # share that is left, about which its mass goes before its stiffness
 _SECTIONS = {"beam": ("A", "Iy", "Iz", "J"), "rod": ("A",)}
 
 Beyond = Callable[[float], np.ndarray] | None  # K (r, r) of the share lost or gained
@@ -49,16 +49,12 @@ def of_members(model: Reduced, candidate: Candidate, sign: int = -1) -> list[Rec
     parts: dict[int, Part] = {}
     sets, growth = OfSets(), Growth(model)
     bare = {member.elements: member for member in rods(model.problem.mesh)}
-    listed = (*members(model.problem.mesh), *bare.values())
-    found = [(member, energy(model, member, parts)) for member in listed]
-    order = np.argsort([-energy for _, energy in found], kind="stable")[:_MOST]
-    chosen = [found[i][0] for i in sorted(order.tolist()) if found[i][1] > _HELD]
-    kinds = [member.kind for member in chosen]
+    listed = [*members(model.problem.mesh), *bare.values()]
     recipes = []
-    for member in chosen:
+    for member, of_kind in chosen(model, listed, parts, _MOST, _HELD):
         K, M = (summed(member, parts, which) for which in (1, 2))
         heavy = bool(np.abs(M).max() > 0)
-        share = -float(np.log(len(set(kinds)) * kinds.count(member.kind) * (1 + heavy)))
+        share = of_kind - float(np.log(1 + heavy))
         beyond, made = _beyond(model, member, sets, sign), []
         if member.elements not in bare:
             made.append(_recipe(candidate, member, (sign * K, beyond), None, sign, share, model.problem))
@@ -115,6 +111,24 @@ def of_set(model: Reduced, s: int) -> Part:
     return u, found["K"], M
 
 
+def chosen(
+    model: Reduced,
+    listed: list[Member],
+    parts: dict[int, Part],
+    most: int,
+    least: float,
+    part: Callable[[Reduced, int], Part] = of_set,
+) -> list[tuple[Member, float]]:
+    """Those of `listed` with most energy in the lowest modes, `most` at most, each with more than a share `least` of one, in order;
+    and ln of the share of each in the prior, which is that of kinds alike, and of all of a kind.
+    """
+    found = [energy(model, member, parts, part) for member in listed]
+    order = np.argsort([-each for each in found], kind="stable")[:most]
+    own = [listed[i] for i in sorted(order.tolist()) if found[i] > least]
+    kinds = [member.kind for member in own]
+    return [(member, -float(np.log(len(set(kinds)) * kinds.count(member.kind)))) for member in own]
+
+
 def energy(
     model: Reduced, member: Member, parts: dict[int, Part], part: Callable[[Reduced, int], Part] = of_set
 ) -> float:
@@ -159,7 +173,7 @@ def _recipe(
     def change(values: np.ndarray) -> Change:
         d = values[0]
         added = d * K if beyond is None else d * K + beyond(d)
-        return Change(added, None if M is None else d * M, spring=(d + sign) * K)
+        return Change(added, None if M is None else (d if sign > 0 else _of_mass(d)) * M, spring=(d + sign) * K)
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         edit = Edit(problem)
@@ -180,6 +194,14 @@ def _recipe(
         extend=extend,
         title=lambda values: "a missing member" if values[0] > 1 - GONE and M is not None and sign < 0 else "",
     )
+
+
+def _of_mass(d: float) -> float:
+    """Share of its mass that a member loses with a share d of its stiffness: as much, but for the last that is left of it.
+
+    That would swing as members like it do, a tuned mass that splits their modes by the root of its mass over theirs.
+    """
+    return 1 + (1 - d) * float(np.expm1(-(1 - d) / _LAST))
 
 
 def _stiff(edit: Edit, own: list[tuple[int, int]], kind: str) -> tuple[str, ...]:

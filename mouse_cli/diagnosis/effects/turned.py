@@ -4,16 +4,15 @@ import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe
 from mouse_cli.diagnosis.effects.losses import matrices_of
-from mouse_cli.diagnosis.effects.members import Part, energy, summed
+from mouse_cli.diagnosis.effects.members import Part, chosen, summed
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.bars import displacements
 from mouse_cli.diagnosis.sites.left_out import left_out
-from mouse_cli.diagnosis.sites.members import ALIKE, Element, Member, members
+from mouse_cli.diagnosis.sites.members import Element, Member, among
 from mouse_cli.model.mesh import Mesh
 from mouse_cli.model.problem import Problem
-from mouse_cli.model.site import Site
 
 _MOST = 60  # members that are looked at: those whose turning changes most energy in the lowest modes
 _FELT = 1e-6  # share of the energy of a mode below which turning a member changes nothing
@@ -25,12 +24,8 @@ def of_turned(model: Reduced, candidate: Candidate) -> list[Recipe]:
     if model.motion is None:
         return []
     parts: dict[int, Part] = {}
-    found = [(member, energy(model, member, parts, _turned)) for member in _oblong(model.problem.mesh)]
-    order = np.argsort([-changed for _, changed in found], kind="stable")[:_MOST]
-    chosen = [found[i][0] for i in sorted(order.tolist()) if found[i][1] > _FELT]
-    kinds = [member.kind for member in chosen]
-    share = [-float(np.log(len(set(kinds)) * kinds.count(kind))) for kind in kinds]
-    return [_recipe(model, candidate, member, parts, own) for member, own in zip(chosen, share, strict=True)]
+    found = chosen(model, _oblong(model.problem.mesh), parts, _MOST, _FELT, _turned)
+    return [_recipe(model, candidate, member, parts, share) for member, share in found]
 
 
 def _oblong(mesh: Mesh) -> list[Member]:
@@ -44,14 +39,7 @@ def _oblong(mesh: Mesh) -> list[Member]:
     for s in both:
         Iy, Iz = own(s, "Iy"), own(s, "Iz")
         turns |= {(s, int(i)) for i in np.flatnonzero((Iy > 0) & (Iz > 0) & (np.abs(Iy - Iz) > _FELT * (Iy + Iz)))}
-    found = [member for member in members(mesh) if turns.issuperset(member.elements)]
-    if turns and all(set(member.elements) != turns for member in found):
-        every = tuple(sorted(turns))
-        ids = tuple(int(mesh.elements[s].ids[i]) for s, i in every)
-        found.append(
-            Member(ALIKE, every, Site("element", ids, None, "all beams that are not as stiff about both axes"))
-        )
-    return found
+    return among(mesh, turns, "all beams that are not as stiff about both axes")
 
 
 def _turned(model: Reduced, s: int) -> Part:

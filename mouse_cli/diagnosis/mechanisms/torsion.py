@@ -8,18 +8,17 @@ from dataclasses import replace
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, steps
-from mouse_cli.diagnosis.effects.members import Part, energy, summed
+from mouse_cli.diagnosis.effects.members import Part, chosen, summed
 from mouse_cli.diagnosis.effects.of_sets import Growth, matrices_of
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.bars import displacements
 from mouse_cli.diagnosis.sites.left_out import left_out
-from mouse_cli.diagnosis.sites.members import ALIKE, Member, members
+from mouse_cli.diagnosis.sites.members import Member, among
 from mouse_cli.diagnosis.sites.reasons import twisting
 from mouse_cli.model.mesh import Mesh
 from mouse_cli.model.problem import Problem
-from mouse_cli.model.site import Site
 
 _MOST = 60  # members that are looked at: those that hold most energy of torsion in the lowest modes
 _FELT = 1e-3  # share of the energy of a mode below which the torsion of a member has no part in it
@@ -31,14 +30,10 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     if model.motion is None:
         return []
     parts: dict[int, Part] = {}
-    found = [(member, energy(model, member, parts, _torsion)) for member in _of_beams(model.problem.mesh)]
-    order = np.argsort([-held for _, held in found], kind="stable")[:_MOST]
-    chosen = [found[i][0] for i in sorted(order.tolist()) if found[i][1] > _FELT]
-    kinds = [member.kind for member in chosen]
-    share = [-float(np.log(len(set(kinds)) * kinds.count(kind))) for kind in kinds]
-    made = [_recipe(model, candidate, member, parts, own) for member, own in zip(chosen, share, strict=True)]
+    found = chosen(model, _of_beams(model.problem.mesh), parts, _MOST, _FELT, _torsion)
     growth = Growth(model, lambda there, s: {"K": _stiffness(there, s)})
-    return [replace(one, grows=growth.of(member.elements)) for one, member in zip(made, chosen, strict=True)]
+    made = ((member, _recipe(model, candidate, member, parts, share)) for member, share in found)
+    return [replace(one, grows=growth.of(member.elements)) for member, one in made]
 
 
 def _of_beams(mesh: Mesh) -> list[Member]:
@@ -49,12 +44,7 @@ def _of_beams(mesh: Mesh) -> list[Member]:
         if each.type == "beam" and each.properties.get("J") is not None
         for i in np.flatnonzero(each.properties["J"] > 0)
     }
-    found = [member for member in members(mesh) if twist.issuperset(member.elements)]
-    if twist and all(set(member.elements) != twist for member in found):
-        every = tuple(sorted(twist))
-        ids = tuple(int(mesh.elements[s].ids[i]) for s, i in every)
-        found.append(Member(ALIKE, every, Site("element", ids, None, "all beams")))
-    return found
+    return among(mesh, twist, "all beams")
 
 
 def _torsion(model: Reduced, s: int) -> Part:

@@ -45,6 +45,16 @@ def members(mesh: Mesh) -> list[Member]:
     return list(found.values())
 
 
+def among(mesh: Mesh, own: set[Element], text: str) -> list[Member]:
+    """Members all of whose elements are `own`, and all of these, called `text`, where they are none."""
+    found = [member for member in members(mesh) if own.issuperset(member.elements)]
+    if own and all(set(member.elements) != own for member in found):
+        every = tuple(sorted(own))
+        ids = tuple(int(mesh.elements[s].ids[i]) for s, i in every)
+        found.append(Member(ALIKE, every, Site("element", ids, None, text)))
+    return found
+
+
 def rods(mesh: Mesh) -> list[Member]:
     """Those with a mass, which are no `members` alone, for losses of elements know them and leave that mass where it is."""
     return [

@@ -47,7 +47,7 @@ def drift(own: Study) -> Drift | None:
     series = own.look
     if series.free or series.slow or not _steady(series.measured / series.sd):
         return None
-    at = Regression(own.spectrum, own.base.placed(own.places[0]))
+    at = own.at(own.places[0])
     found = [(*_taken(at, j), j) for j in range(own.base.linear.k)]
     share, path, j = max(found, key=lambda one: one[0], default=(0.0, np.zeros(2), 0))
     if share < _LEAST:
@@ -74,10 +74,8 @@ def _taken(at: Regression, j: int) -> tuple[float, np.ndarray]:
     force = s.history(U @ dK.T + 1j * w * (U @ dC.T) + a @ dM.T)
     powers = np.polynomial.legendre.legvander(np.linspace(-1, 1, len(force)), _DEGREE)[:, 1:]
     lines = (s.line(power[:, None] * force * s.window[:, None]) for power in powers.T)
-    columns = [at.stacked(s.history(-np.einsum("lsn,ln->ls", s.SH, F)) * s.window[:, None]) for F in lines]
-    free = np.column_stack([at.projected(column) for column in columns])
-    sizes, *_ = np.linalg.lstsq(free, at.target, rcond=1e-9)
-    return 1 - float(((at.target - free @ sizes) ** 2).sum()) / at.nothing, powers @ sizes
+    share, sizes = at.taken([at.stacked(s.history(-np.einsum("lsn,ln->ls", s.SH, F)) * s.window[:, None]) for F in lines])
+    return share, powers @ sizes
 
 
 def _value(own: Study, z: np.ndarray, j: int, by: float) -> str:

@@ -29,7 +29,7 @@ from mouse_cli.updating.recordings.study import Study
 
 _TURNS, _SLIGHT = 4, 0.02  # of a scale that is sought; a channel that is off by less is none that is wrong
 _WIDE = 0.7  # of the logarithm of the scale of a table, or of a corner, either way
-_LATE = 0.5, 16.0  # samples, the least and the most, that a delay is first sought at, twice as many each time, either way
+_LATE = 0.5, 16.0, 6  # samples, the least and the most, that a delay is first sought at, either way, and how many
 _THOUGHT = 0.5  # of what is left, that a corner leaves in closed form to be thought of
 
 
@@ -121,7 +121,7 @@ def _delay(own: Study, look: Series, record: Recording, column: int) -> float:
         at = reread(own, _prompt(column, seconds)(record), look)
         return np.inf if at is None else at.nothing
 
-    once = _LATE[0] * 2 ** np.arange(np.log2(_LATE[1] / _LATE[0]) + 1) * record.time_step_s
+    once = np.geomspace(*_LATE) * record.time_step_s
     tried = np.concatenate([-once[::-1], [0.0], once])
     best = int(np.argmin([left(seconds) for seconds in tried]))
     if tried[best] == 0:

@@ -21,6 +21,7 @@ _APART = 0.15  # of the logarithm of a size, from which on two starts are two
 _FAR = 0.7  # most that ln parameters of a law that is there already move in a first look
 _HELD = 1e3  # times as sure as its prior that a factor of all masses, stiffnesses and dampings, or of all gains, is
 _SIDE_BY_SIDE, _FOLLOWED = 16, 1e-9  # columns at a time; share of one that is left where nuisances do the same
+_SINGULAR = 1e-6  # of the largest singular value, below which columns are a sum of others
 _STEP = 1e-3  # of ln parameters, in differences
 _BEGIN = 0.02  # share of the record whose states are not known well, left out
 
@@ -78,9 +79,7 @@ class Regression:
         self.missing = spectrum.missing + self._answer(self.begun)
         self.sd = 1.0
         self.y = self.stacked(self.missing)
-        self.sd = float(
-            np.hypot(1.0, error * np.sqrt((self.y**2).sum() / max(len(self.y), 1)))
-        )  # a short part may keep no sample
+        self.sd = float(np.hypot(1.0, error * np.sqrt((self.y**2).sum() / max(len(self.y), 1))))  # a short part may keep none
         self.y /= self.sd
         channels = hypothesis.channels.columns(spectrum)
         columns = *self._nuisances(U), *channels, *self._slopes(), *spectrum.begins
@@ -210,13 +209,14 @@ class Regression:
 
     def share(self, forces: list[np.ndarray]) -> float:
         """Share of what is left that any sum of histories (t,) of a force at the place takes."""
-        s, k = self.spectrum, len(self._prior)
-        columns = [self._answered(s.line(F * s.window)[:, None]) for F in forces]
-        A = np.vstack([np.stack(columns, axis=1), np.zeros((k, len(forces)))])
-        A -= self.Q @ (self.Q.T @ A)
-        A /= np.maximum(np.linalg.norm(A, axis=0), 1e-300)
-        U, size, _ = np.linalg.svd(A, full_matrices=False)
-        return float(((U[:, size > 1e-6 * size[0]].T @ self.target) ** 2).sum()) / self.nothing
+        return self.taken([self._answered(self.spectrum.line(F * self.spectrum.window)[:, None]) for F in forces])[0]
+
+    def taken(self, columns: list[np.ndarray]) -> tuple[float, np.ndarray]:
+        """Share of what is left that stacked columns take, nuisances beside them, and their sizes."""
+        A = np.column_stack([self.projected(column) for column in columns])
+        scale = np.maximum(np.linalg.norm(A, axis=0), 1e-300)
+        sizes, *_ = np.linalg.lstsq(A / scale, self.target, rcond=_SINGULAR)
+        return 1 - float(((self.target - A / scale @ sizes) ** 2).sum()) / self.nothing, sizes / scale
 
     @property
     def nothing(self) -> float:

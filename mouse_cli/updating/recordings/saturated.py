@@ -52,13 +52,5 @@ def saturated(own: Study) -> Saturated | None:
 def _curve(at: Regression, y: np.ndarray) -> tuple[float, float, float]:
     """Shares of what is left that a curve of readings y (t, s) of one channel takes, and a gain; what it says near their top."""
     z = y / max(float(np.abs(y).max()), 1e-300)
-    free = np.column_stack([at.projected(at.stacked(z**power)) for power in (1, *_POWERS)])
-    share, sizes = _share(at.target, free[:, 1:])
-    gain, _ = _share(at.target, free[:, :1])
+    (gain, _), (share, sizes) = (at.taken([at.stacked(z**power) for power in powers]) for powers in ((1,), _POWERS))
     return share, gain, 1 - float(sizes @ _NEAR ** (np.array(_POWERS) - 1.0)) / float(np.abs(y).max() or 1.0)
-
-
-def _share(target: np.ndarray, free: np.ndarray) -> tuple[float, np.ndarray]:
-    """Share of a target that columns take, and their sizes."""
-    sizes, *_ = np.linalg.lstsq(free, target, rcond=1e-9)
-    return 1 - float(((target - free @ sizes) ** 2).sum() / (target @ target)), sizes
