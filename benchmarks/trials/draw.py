@@ -15,6 +15,7 @@ APART = 0.12  # of the span: two mechanisms of one physics or site stand at leas
 FELT = 30.0  # chi-square: what changes a test less, once the parameters have made up for it, nobody could find
 STEP = 1e-3  # of the logarithm of a parameter, for differences
 CYCLES = 5  # of a fit of the parameters
+FAR = 5.0  # sd of its prior that a parameter may go in it
 ATTEMPTS = 200
 
 
@@ -108,7 +109,8 @@ def _felt(kind: Kind, seed: int, without: int, truth: Truth, quality: str) -> fl
     A = np.vstack([J, np.diag(1 / sd)])
     left = lambda d: np.concatenate([difference(at(d), truth, noise, m), -d / sd])
     for _ in range(CYCLES):
-        d = d + np.linalg.lstsq(A, left(d), rcond=None)[0]
+        # A full step may end where a mode has none to be compared with (a stiffness of next to nothing).
+        d = np.clip(d + np.linalg.lstsq(A, left(d), rcond=None)[0], -FAR * sd, FAR * sd)
     return float(min(left(one) @ left(one) for one in (d, 0 * d)))
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from benchmarks.trials.draw import Trial, trials
 from benchmarks.trials.test_data import section
 
-EDITION = 3  # raised whenever a seed gives other truths than before
+EDITION = 4  # raised whenever a seed gives other truths than before
 SEAL, DECKS = "seal.txt", "decks"
 
 
