@@ -79,6 +79,22 @@ MODELS = {
 """,
         [(1, "TY"), (5, "TY"), (13, "TY"), (17, "TY"), (26, "TX")],
     ),
+    "clad": (
+        f"""
+  structure:
+    nodes:
+      - {{line: {{from: 1, to: 9, start: [0, 2], end: [3, 2]}}}}
+      - {{line: {{from: 21, to: 26, start: [1.5, 0], end: [1.5, 1.8]}}}}
+    {STEEL}
+    sections: {{bar: {{rectangle: [0.04, 0.05]}}}}
+    elements:
+      - {{id: 1-8, type: beam, nodes: 1-9, material: steel, section: bar, nonstructural_mass: 6}}
+      - {{id: 21-26, type: beam, nodes: [21-26, 5], material: steel, section: bar, nonstructural_mass: 4}}
+    supports: {{21: all}}
+    plane: XY
+""",
+        [(1, "TY"), (3, "TY"), (7, "TY"), (9, "TY"), (24, "TX")],
+    ),
     "space": (
         f"""
   structure:
@@ -272,6 +288,10 @@ _PARAMETERS = dict.fromkeys(
 )
 _PARAMETERS["laden"] = _E + "  - {name: tip, elements: 43, property: mass, sd: 30 %}\n"
 _PARAMETERS["frame"] = _E + "  - {name: load, elements: 41-44, property: nonstructural_mass, sd: 20 %}\n"
+_PARAMETERS["clad"] = (
+    _E + "  - {name: cladding, elements: 1-8, property: nonstructural_mass, factor: true, nominal: 1.1, sd: 5 %}\n"
+    "  - {name: lining, elements: 21-26, property: nonstructural_mass, nominal: 5, sd: 5 %}\n"
+)
 _PARAMETERS["storeys"] = "parameters:\n  - {name: storey, elements: 1-5, property: TX, factor: true, sd: 10 %}\n"
 _PARAMETERS["masses"] = "parameters:\n  - {name: k, elements: 11-13, property: TX, sd: 10 %}\n"
 SUPPORTS = {"support-rotation", "support-translation", "rocking"}
@@ -282,6 +302,7 @@ OWN = {
     "pinned": {"support-restraint"},
     "girder": {"eccentric-bearing"},
     "bedded": {"void"},
+    "clad": {"added-mass", "floor-mass", "taper"},
 }
 CASES = [(name, key) for name in MODELS for key in registry() if key in OWN.get(name, {key})]
 LONG = {  # structures whose like, a smaller one, has the same mechanisms, but for these

@@ -4,7 +4,7 @@ import numpy as np
 
 from benchmarks.trials.case import Blank, Mechanism
 from benchmarks.trials.library import log_uniform
-from benchmarks.trials.outside.places import BED, BLOCK, FOOT, LOCAL, MOUNT, MOVING, SOFT, around, stretch
+from benchmarks.trials.outside.places import BED, BESIDE, BLOCK, FOOT, LOCAL, MOUNT, MOVING, SOFT, around, stretch
 
 
 def elastic_wall(blank: Blank, rng: np.random.Generator) -> Mechanism:
@@ -76,4 +76,4 @@ def neighbour(blank: Blank, rng: np.random.Generator) -> Mechanism:
     floor = int(rng.integers(1, n))
     truth.spring({floor: 1.0, high: -1.0}, blank.stiffness * log_uniform(rng, 0.05, 0.5))
     at = blank.places[floor]
-    return Mechanism("neighbour", "", "", at, 0.6, kg, (), (*LOCAL, "mass"), around(at))
+    return Mechanism("neighbour", "", "", at, 0.6, kg, (BESIDE,), (*LOCAL, "mass"), around(at))

@@ -10,6 +10,7 @@ BRACE, ROCKING, CORNERS = ("brace", "brace"), ("rocking", "support"), ("semi-rig
 MOVING, BLOCK = ("support-translation", "support"), ("block-translation", "support")
 MOUNT, OSCILLATOR, MASS = ("ground-spring", "ground-spring"), ("oscillator", "oscillator"), ("mass", "mass")
 ADDED = ("added-mass", "added-mass")
+BESIDE = ("neighbour", "oscillator")
 LOCAL = ("stiffness", "force")  # properties of nameless fields that describe what acts at places
 
 

@@ -136,6 +136,15 @@ def with_oscillator(problem: Problem, point: Points, at: np.ndarray, m: float, k
     return add_oscillator(problem, _ends(problem, point, at), names, m, k)
 
 
+def with_neighbour(problem: Problem, point: Points, at: np.ndarray, m: float, tie: float, own: float) -> Problem:
+    """A mass m (kg) on a spring `own` (N/m) to the ground, which a spring `tie` joins to the place."""
+    site = point.site(at)
+    names = f"mass of what stands beside {site.text}", f"tie of what stands beside {site.text}"
+    name, ends = f"its own spring of what stands beside {site.text}", _ends(problem, point, at)
+    deck, last = add_oscillator(problem, ends, names, m, tie), problem.structure.n
+    return add_spring(deck, Ends((last,), lambda edit: [len(edit.node_ids) - 1], ends.direction), name, own)
+
+
 def _ends(problem: Problem, point: Points, at: np.ndarray) -> Ends:
     site = point.site(at)
     direction = "" if of_matrices(problem) else DIRECTIONS[point.dofs[0]]

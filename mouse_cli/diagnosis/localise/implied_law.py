@@ -43,8 +43,9 @@ def _gram(change: Change, r: int, size: float, unit: str) -> np.ndarray | None:
     """B'B (r, r) of the translations B of the place: size B'B is what a spring adds to K, a mass to M; None for others."""
     if change.sensing is not None:
         return None
-    if change.K is not None and len(change.K) == r + 1:  # an oscillator: its spring is [B, -1]'[B, -1]
-        B = -change.K[r, :r] / change.K[r, r]
+    if change.K is not None and len(change.K) == r + 1:  # a mass on a spring k [B, -1]'[B, -1], and perhaps on one of its own
+        row, k_squares = change.K[r, :r], change.K[:r, :r].trace()
+        B = -row * k_squares / max(row @ row, 1e-300)
         return np.outer(B, B)
     added = {"N/m": change.K, "kg": change.M}.get(unit)
     other = change.M if unit == "N/m" else change.K

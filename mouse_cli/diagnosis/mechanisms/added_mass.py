@@ -6,9 +6,11 @@ from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, product,
 from mouse_cli.diagnosis.effects.element_sets import heavier
 from mouse_cli.diagnosis.effects.line_mass import LineIntegral
 from mouse_cli.diagnosis.extend.edit import Edit
+from mouse_cli.diagnosis.extend.line_mass import add_line_mass, may_bear_more
 from mouse_cli.diagnosis.extend.places import beams_within, every_beam, split
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
+from mouse_cli.diagnosis.sites.bars import Bars
 from mouse_cli.diagnosis.sites.intervals import Interval, from_end, widest
 from mouse_cli.diagnosis.sites.lines import Line
 from mouse_cli.diagnosis.sites.preload import runs
@@ -24,14 +26,28 @@ _HEAVIEST = 10.0  # times the mass of the bars: a thin pipe holds several times 
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     """M + m times the integral of u'u over bars without a parameter for it: all, or a row of them in part."""
-    found = runs(model, "nonstructural_mass")
-    if not found:
+    covered = [run for run in runs(model) if may_bear_more(model.problem, run)]
+    if not covered:
         return heavier(model, candidate)
-    bars = model.bars
+    ended = [(run, LineIntegral(run)) for run in covered[:_MOST]]
+    share = _PART / len(ended)
+    one, both = 0.5 * (1 - _BETWEEN) * share, _BETWEEN * share
+    m = _per_length(model.bars)
+    partly = [_partly(candidate, *each, m, back, one) for each in ended for back in (False, True)]
+    return [*_all(model, candidate, m), *partly, *(_between(candidate, *each, m, both) for each in ended)]
+
+
+def _per_length(bars: Bars) -> Unknown:
     mean = float(np.average(bars.line_mass, weights=bars.length)) or 1.0
-    m = Unknown("mass per length", "kg/m", 1e-3 * mean, _HEAVIEST * mean)
-    wet = {i: LineIntegral(run) for i, run in enumerate(found)}
-    total = sum(part.sums[-1] for part in wet.values())
+    return Unknown("mass per length", "kg/m", 1e-3 * mean, _HEAVIEST * mean)
+
+
+def _all(model: Reduced, candidate: Candidate, m: Unknown) -> list[Recipe]:
+    """On all bars of rows without a parameter for it; none where every row has one, which says as much."""
+    found, bars = runs(model, "nonstructural_mass"), model.bars
+    if not found:
+        return []
+    total = sum(LineIntegral(run).sums[-1] for run in found)
     ids = tuple(sorted({int(bars.ids[i]) for run in found for i in run.members}))
     known = len(set(bars.ids.tolist())) - len(ids)
     named = "all beams" if not known else f"all beams but {known} whose mass is a parameter"
@@ -48,11 +64,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
         extend=lambda problem, values: _with_mass(problem, values[0], pieces, named),
         linear=0,
     )
-    ended = list(wet.items())[:_MOST]
-    share = _PART / max(len(ended), 1)
-    one, both = 0.5 * (1 - _BETWEEN) * share, _BETWEEN * share
-    partly = [_partly(candidate, found[i], part, m, back, one) for i, part in ended for back in (False, True)]
-    return [everywhere, *partly, *(_between(candidate, found[i], part, m, both) for i, part in ended)]
+    return [everywhere]
 
 
 def _partly(candidate: Candidate, run: Line, wet: LineIntegral, m: Unknown, back: bool, share: float) -> Recipe:
@@ -102,9 +114,7 @@ def _with_mass(problem: Problem, m: float, pieces: list | None, where: str) -> P
     edit = Edit(problem)
     for ends in pieces or ():
         split(edit, ends)
-    beams = every_beam(edit) if pieces is None else beams_within(edit, pieces)
-    edit.put(beams, "nonstructural_mass", np.array([edit.values(e, "nonstructural_mass") for e in beams]) + m)
-    edit.bind(f"added mass of {where}", beams, ("nonstructural_mass",), unit="kg/m")
+    add_line_mass(edit, every_beam(edit) if pieces is None else beams_within(edit, pieces), f"added mass of {where}", m)
     return edit.done()
 
 

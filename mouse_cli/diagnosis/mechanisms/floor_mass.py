@@ -9,6 +9,7 @@ import numpy as np
 from mouse_cli.diagnosis.effects.change import Recipe, Unknown, proportional
 from mouse_cli.diagnosis.effects.line_mass import uniform
 from mouse_cli.diagnosis.extend.edit import Edit
+from mouse_cli.diagnosis.extend.line_mass import add_line_mass, may_bear_more
 from mouse_cli.diagnosis.extend.places import beams_within
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import BODY, total_mass
@@ -26,7 +27,7 @@ _LEVEL = 1e-3  # of the height of the structure
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     """M + m times the integral of u'u over some of the bars, not all of them."""
     found = [] if model.bars is None else list(model.bars.runs)
-    if len(found) < 2 or any(b.property == "nonstructural_mass" for b in model.problem.bindings):
+    if len(found) < 2 or not all(may_bear_more(model.problem, run) for run in found):
         return []
     bar_of = {at: bar for run in found for at, bar in zip(_elements(run), run.members.tolist(), strict=True)}
     parts = _parts(model, found, set(bar_of))
@@ -86,10 +87,7 @@ def _recipe(
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         edit = Edit(problem)
-        beams = beams_within(edit, ends)
-        own = np.array([edit.values(e, "nonstructural_mass") for e in beams])
-        edit.put(beams, "nonstructural_mass", own + values[0])
-        edit.bind(f"added mass of {name}", beams, ("nonstructural_mass",), unit="kg/m")
+        add_line_mass(edit, beams_within(edit, ends), f"added mass of {name}", values[0])
         return edit.done()
 
     return proportional(candidate, m, 3, site, -float(np.log(count)), extend, M=M)

@@ -5,6 +5,7 @@ import numpy as np
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Softening, Unknown, product, steps
 from mouse_cli.diagnosis.effects.line_mass import uniform
 from mouse_cli.diagnosis.extend.edit import Edit
+from mouse_cli.diagnosis.extend.line_mass import line_mass, put_line_mass
 from mouse_cli.diagnosis.extend.places import beams_within
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
@@ -22,7 +23,7 @@ _LEAST_MASS, _MOST_MASS = 0.3, 1.0
 
 def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     """EI (1 + a xi) and mass per length (1 + a b xi), xi from -1 at one end of a member to 1 at the other; it stops at joints."""
-    rows = runs(model, "nonstructural_mass", "Iy", "Iz")
+    rows = runs(model, "nonstructural_mass", "Iy", "Iz", multiplied=True)
     joints = crossed(model.problem.mesh) if rows else set()
     found = [part for run in rows for part in run.parted(joints) if len(part.members) >= _FEWEST]
     return [_recipe(model, candidate, run, len(found)) for run in found]
@@ -64,8 +65,8 @@ def _tapered(problem: Problem, run: Line, a: float, b: float) -> Problem:
     xi = np.array([_xi(run, middle) for middle in middles])
     for name in ("Iy", "Iz"):
         edit.put(beams, name, np.array([edit.values(e, name) for e in beams]) * (1 + a * xi))
-    density, A, more = (np.array([edit.values(e, n) for e in beams]) for n in ("density", "A", "nonstructural_mass"))
-    edit.put(beams, "nonstructural_mass", more + b * xi * (density * A + more))
+    own, more = np.array([edit.values(e, "density") * edit.values(e, "A") for e in beams]), line_mass(edit, beams)
+    put_line_mass(edit, beams, more + b * xi * (own + more))
     return edit.done()
 
 

@@ -15,10 +15,14 @@ from mouse_cli.terms.element_term import ElementTerm
 from mouse_cli.terms.elements import _beam as beam
 
 
-def runs(model: Reduced, *bound: str) -> list[Line]:
-    """Rows of bars that are worth looking at, and that no parameter gives a property of `bound` already."""
+def runs(model: Reduced, *bound: str, multiplied: bool = False) -> list[Line]:
+    """Rows of bars that are worth looking at, and that no parameter gives a property of `bound` already; multiplied: or is a factor
+    of it.
+    """
     bars, keep, found = model.bars, wanted(model), []
-    taken = {(b.set, int(i)) for b in model.problem.bindings if b.property in bound for i in b.members}
+    taken = {
+        (b.set, int(i)) for b in model.problem.bindings if b.property in bound and not (multiplied and b.factor) for i in b.members
+    }
     for run in () if bars is None else bars.runs:
         own = zip(bars.set[run.members].tolist(), bars.member[run.members].tolist(), strict=True)
         if not taken & set(own) and (keep is None or keep[bars.nodes[run.members]].any()):
