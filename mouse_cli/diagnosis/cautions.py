@@ -14,7 +14,7 @@ from mouse_cli.diagnosis.likelihoods.modal.repeated import exchanged, repeated
 from mouse_cli.diagnosis.likelihoods.modal.scales import span
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.diagnosis.search.grounded import one_tie
-from mouse_cli.diagnosis.search.rank import NOISY, Ranking
+from mouse_cli.diagnosis.search.rank import LOUD, NOISY, Ranking
 from mouse_cli.diagnosis.verdict import Verdict, shifts
 from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, RIVAL, UNKNOWN, Location, Site
 from mouse_cli.model.groups import enumerated
@@ -29,6 +29,7 @@ _SMALL = 0.2  # share of all places that the 90 % region may hold to point anywh
 _CHECK = "Check the value, or state a larger sd."
 _LEADING = 8  # explanations, by their evidence, that are asked for a parameter that strains them
 _AGAIN = 1.2  # times the stated scatter, up to which a test is as accurate as it says
+SCATTER = "scatter"  # error of the test: all of it scatters more than the deck says
 _OFFSET = "offset"  # group of masses that are not at their nodes
 _CERTAIN = ("is less accurate than stated in the deck", "has an error")  # of all entries of a kind, and of one mode
 _POSSIBLE = ("may be less accurate than stated in the deck", "may have an error")
@@ -48,8 +49,16 @@ _TOLD = {
 
 def misstated(ranking: Ranking) -> str | None:
     """Key of the error that explains the data better than the accuracies of the deck do; None where those may be right."""
+    if ranking.noise_scale > NOISY:
+        return SCATTER if _scattered(ranking) else None
     found = _doubts(ranking)
-    return found[0].key if sum(each.probability for each in found) > _PROBABLE and ranking.noise_scale <= NOISY else None
+    return found[0].key if sum(each.probability for each in found) > _PROBABLE else None
+
+
+def _scattered(ranking: Ranking) -> bool:
+    """Whether more scatter than stated explains the data better than whatever has a name or none."""
+    name, probability = ranking.groups[0]
+    return name == "none" and probability > _PROBABLE and ranking.noise_scale <= LOUD
 
 
 def _doubts(ranking: Ranking) -> list[Doubt]:

@@ -42,7 +42,7 @@ from mouse_cli.updating.chi_square import upper_tail
 NOISY = 1.5  # noise scale above which the accuracies of the test themselves are in doubt
 _UNPHYSICAL = "no size of it makes a model whose modes can be paired with the test"
 _TRUSTED = 0.5  # share of the stated accuracies in the leading explanation below which errors of the test may be all
-_LOUD = 4.0  # noise scale from which on no error of the test is all, and as many are sought as beside a test that is trusted
+LOUD = 4.0  # noise scale from which on no error of the test is all, and as many are sought as beside a test that is trusted
 _ENTRY = 0.99  # probability of one wrong entry of the test from which on nothing further is sought behind it
 # Probability of no mechanism above which what has no name is not asked where that leaves no more than chance
 _IDLE = 0.5
@@ -196,7 +196,7 @@ def _ranked(study: Study, causes: int, by_all: Callable[[Ranking], Ranking], las
         fits += rivals(model, baseline, kind, within([*fits, *begun.values()]))
     one_each = plain(one for one in found.fits if one.recipes)
     if causes > 1 and len(found.fits) > 1 and not any(enough(one, FURTHER, gates.GATE) for one in one_each):
-        trusted = found.stated[0] > _TRUSTED or found.noise_scale > _LOUD
+        trusted = found.stated[0] > _TRUSTED or found.noise_scale > LOUD
         fits += several(study, singles, causes, trusted, begun)
     others = model.problem.frf or model.problem.recordings  # which may feel what modes do not
     if kind is Model and not others and any(one.nameless for one in fits) and not any(map(_simple, fits)):
