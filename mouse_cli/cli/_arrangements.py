@@ -45,17 +45,22 @@ class Named:
 
     @classmethod
     def of(cls, decks: tuple[str, ...], held_out: tuple[str, ...], changed: tuple[str, ...]) -> "Named":
-        """From the command line."""
-        return cls((*decks, *(deck for deck in changed if deck not in held_out)), held_out, changed)
+        """From the command line, where a deck that changed may be among DECKS too."""
+        apart = {os.path.realpath(deck) for deck in (*decks, *held_out)}
+        return cls((*decks, *(deck for deck in changed if os.path.realpath(deck) not in apart)), held_out, changed)
 
     def having(self, decks: tuple[str, ...]) -> tuple[bool, ...]:
         """Which of `decks` have the causes that are sought: those that changed, or all."""
-        return tuple(not self.changed or deck in self.changed for deck in decks)
+        changed = {os.path.realpath(deck) for deck in self.changed}
+        return tuple(not changed or os.path.realpath(deck) in changed for deck in decks)
 
 
 def several(named: Named, output: str | None) -> bool:
     """Whether decks are arrangements. Raises click.UsageError for what has no meaning, or where names would collide."""
     decks = named.fitted
+    places = [os.path.realpath(deck) for deck in (*decks, *named.unseen)]
+    if twice := next((deck for deck, own in zip((*decks, *named.unseen), places, strict=True) if places.count(own) > 1), ""):
+        raise click.UsageError(f"{twice} is given twice: a configuration counts once, to be fitted or held out")
     if len(decks) == 1 and not named.unseen and not named.changed:
         return False
     if not any(named.having(decks)):

@@ -12,9 +12,10 @@ from mouse_cli.diagnosis.likelihoods.modal.accuracy import Doubt, scatter
 from mouse_cli.diagnosis.likelihoods.modal.mixed import mixed
 from mouse_cli.diagnosis.likelihoods.modal.repeated import exchanged, repeated
 from mouse_cli.diagnosis.likelihoods.modal.scales import span
+from mouse_cli.diagnosis.noise import LOUD
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.diagnosis.search.grounded import one_tie
-from mouse_cli.diagnosis.search.rank import LOUD, NOISY, Ranking
+from mouse_cli.diagnosis.search.rank import NOISY, Ranking
 from mouse_cli.diagnosis.verdict import Verdict, shifts
 from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, RIVAL, UNKNOWN, Location, Site
 from mouse_cli.model.groups import enumerated

@@ -9,6 +9,7 @@ so that an explanation which leaves too much pays for the noise that it needs, a
 
 import numpy as np
 
+LOUD = 4.0  # scale of variances beyond which no error of the test is all, and as much is sought as beside a test that is trusted
 RATE = 6.0  # of the prior of ln s: standard deviations are twice what was stated, or more, in 1 test of 64
 
 

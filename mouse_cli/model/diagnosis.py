@@ -96,7 +96,7 @@ class Diagnosis(Shown):
     first of the rivals; probability: of its group. explanations: all that were tried, most probable first. noise_scale: by what
     the stated variances were multiplied. refuted: groups that held-out data speak against; cautions: sentences on what the
     answer stands or falls with, the accuracy of the test above all; misstated: what of that the deck seems to have wrong,
-    `gains`, `places` or `drift`. location, energy: what shapes alone say of the place.
+    `gains`, `places`, `drift` or `scatter`, or of a mode. location, energy: what shapes alone say of the place.
     extended: the deck with the cause in it, and its update. frf, held_frf: functions of the model as it is, and with the cause
     where there is one, beside those fitted and those held out; damping: of the structure, as functions show it. field: physics
     without a name where the answer is UNKNOWN, or where it leads what has one; rest: what a named mechanism leaves unexplained;

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mouse_cli.cli._arrangements import Named
 from mouse_cli.cli.main import _run
 from mouse_cli.diagnosis.likelihoods.configurations import diagnose
 from mouse_cli.diagnosis.likelihoods.configurations.model import Arranged, Together
@@ -270,13 +271,26 @@ def test_decks_that_are_no_arrangements_are_refused(tmp_path, capsys, change, co
 
 @pytest.mark.parametrize(
     "arguments",
-    [["--plot", "x.pdf"], ["-o", "one.yaml"], ["--changed", "two.yaml", "--held-out", "two.yaml"]],
+    [
+        ["--plot", "x.pdf"],
+        ["-o", "one.yaml"],
+        ["--changed", "two.yaml", "--held-out", "two.yaml"],
+        ["./one.yaml"],
+        ["--held-out", "one.yaml"],
+    ],
 )
 def test_what_has_no_meaning_for_arrangements_is_refused(tmp_path, monkeypatch, arguments):
     monkeypatch.chdir(tmp_path)
     for name in ("one", "two", "three"):
         deck(tmp_path, name, PLACES[0], frequencies(PLACES[0]), 1)
     assert _run(["diagnose", "one.yaml", "three.yaml", *arguments]) == 2
+
+
+def test_a_deck_that_changed_may_be_among_the_others():
+    """It was a third configuration, and counted twice."""
+    apart, among = (Named.of(decks, (), ("two.yaml",)) for decks in (("one.yaml",), ("one.yaml", "./two.yaml")))
+    assert apart.having(apart.fitted) == among.having(among.fitted) == (False, True)
+    assert len(apart.fitted) == len(among.fitted) == 2
 
 
 @pytest.mark.proof

@@ -95,7 +95,7 @@ CANDIDATE = Candidate(
     "sensor-node",
     "a sensor at another node",
     "sensor",
-    "the sensors of one node are at another one, or one of them reads another direction, in all modes: a label or a cable taken for "
+    "the sensors of one node are at another one, or one of them reads another direction, in all modes: a label or cable taken for "
     "its neighbour",
     recipes,
 )

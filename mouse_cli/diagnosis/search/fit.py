@@ -104,6 +104,13 @@ class Fit(End):
         """Degrees of freedom that the misfit has when the model is right."""
         return self.model.base.data.dof - self.model.t - round(self.point.free)
 
+    def idle(self, noise: float) -> float:
+        """How many unknowns of its causes, in effect, the data leave to their ranges where all variances are `noise` times."""
+        k, width = self.model.k, self.model.width
+        prior = np.diag((np.arange(len(self.hessian)) < k).astype(float))
+        open_by = root((self.hessian - prior) / noise + prior, width)[k:]
+        return float(((open_by**2).sum(axis=1) * 2 * np.pi / width**2).sum())
+
     @property
     def by_itself(self) -> float:
         """Its log evidence without that of other places."""

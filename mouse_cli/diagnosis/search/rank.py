@@ -19,7 +19,7 @@ from mouse_cli.diagnosis.likelihoods.modal.scales import span
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.nameless.fit import rivals
 from mouse_cli.diagnosis.nameless.joint import joint_rivals
-from mouse_cli.diagnosis.noise import scale
+from mouse_cli.diagnosis.noise import LOUD, scale
 from mouse_cli.diagnosis.search.alone import alone
 from mouse_cli.diagnosis.search.descents import settled
 from mouse_cli.diagnosis.search.disguised import disguised
@@ -42,7 +42,6 @@ from mouse_cli.updating.chi_square import upper_tail
 NOISY = 1.5  # noise scale above which the accuracies of the test themselves are in doubt
 _UNPHYSICAL = "no size of it makes a model whose modes can be paired with the test"
 _TRUSTED = 0.5  # share of the stated accuracies in the leading explanation below which errors of the test may be all
-LOUD = 4.0  # noise scale from which on no error of the test is all, and as many are sought as beside a test that is trusted
 _ENTRY = 0.99  # probability of one wrong entry of the test from which on nothing further is sought behind it
 # Probability of no mechanism above which what has no name is not asked where that leaves no more than chance
 _IDLE = 0.5
@@ -241,7 +240,8 @@ def _untried(study: Study, singles: list[Fit]) -> tuple[Untried, ...]:
 def ranking(baseline: Fit, fits: list[Fit]) -> Ranking:
     """Probabilities of `fits`; errors of the test, and noise larger than stated, are integrated out for each of them."""
     each = [ways(one) for one in fits]
-    parts = [np.array([way.log_weight(one.dof) for way in own]) for one, own in zip(fits, each, strict=True)]
+    left = [one.dof + one.idle(scale(one.misfit, one.dof)) for one in fits]  # what is idle is fitted by no noise
+    parts = [np.array([way.log_weight(dof) for way in own]) for dof, own in zip(left, each, strict=True)]
     totals = np.array([np.logaddexp.reduce(part) for part in parts])
     evidence = totals + np.array([one.log_evidence for one in fits])
     weights = evidence + np.array([_log_prior(one, fits) for one in fits])

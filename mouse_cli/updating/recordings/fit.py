@@ -32,6 +32,10 @@ class Fit:
         """Its laws at their places."""
         return self.hypothesis.parts
 
+    def idle(self, noise: float) -> float:
+        """Of its unknowns records leave none to its range."""
+        return 0.0
+
     @property
     def groups(self) -> list[str]:
         """Groups of its laws."""

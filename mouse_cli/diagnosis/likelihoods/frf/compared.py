@@ -71,12 +71,23 @@ def window_of(one: Fit) -> BlockWindow | None:
 
 
 def remarks(ranking: Ranking) -> tuple[str, ...]:
-    """What to say of windows that no deck states."""
-    found = window_of(of_functions(ranking.baseline))
-    if found is None:
-        return ()
-    text = "the FRFs are explained as H1 of blocks of {:.4g} s under a window '{}', which the deck does not state"
-    return (f"{text.format(found.seconds, found.name)}: check it, and give window: {found.name}",)
+    """What to say of windows that no deck states, and of functions that scatter more than it does."""
+    one = of_functions(ranking.baseline)
+    found, more = window_of(one), _scatters(one)
+    said = []
+    if found is not None:
+        text = "the FRFs are explained as H1 of blocks of {:.4g} s under a window '{}', which the deck does not state"
+        said.append(f"{text.format(found.seconds, found.name)}: check it, and give window: {found.name}")
+    if more > 1:
+        text = "the FRFs scatter {:.2g} times as much as the deck states, from line to line, as noise does and physics does not"
+        said.append(f"{text.format(more)}: that is taken for their accuracy; give it, or average more")
+    return tuple(said)
+
+
+def _scatters(one: Fit) -> float:
+    """By what the standard deviations that a deck states were multiplied; 1 where none was, or nothing was stated."""
+    data = one.model.base.data
+    return float(np.sqrt(data.scale)) if isinstance(one.model, FrfModel) and not data.assumed else 1.0
 
 
 def of_functions(one: Fit) -> Fit:

@@ -5,17 +5,41 @@ n / tau of them, tau = 1 + 2 sum_k rho_k, the sum up to the first k where rho is
 own: k <= 5 tau).
 """
 
+from collections.abc import Iterator
+
 import numpy as np
 
+from mouse_cli.diagnosis.noise import LOUD
 from mouse_cli.diagnosis.search.fit import Fit
 
 _WINDOW = 5.0
+_SMOOTH = 0.25  # share of what is left beyond the noise stated that neighbouring lines may have in common
 _FEW = 8  # lines of a function below which nothing is said
 
 
 def correlated(one: Fit) -> float:
     """tau >= 1 of the fit `one` of FRFs, the mean over its functions, each weighed by its lines."""
-    total, count, start = 0.0, 0, 0
+    every = list(_sequences(one))
+    count = sum(map(len, every))
+    return sum(len(e) * _time(e) for e in every) / count if count else 1.0
+
+
+def scatter(one: Fit) -> float:
+    """Variance of what a fit of FRFs leaves over what the deck states, where that is scatter from line to line; else 1.
+
+    What physics leaves is alike at neighbouring lines, and scatter is not: of what is too much no more than _SMOOTH may be.
+    """
+    found, every = one.misfit / max(one.dof, 1), list(_sequences(one))
+    size = sum(float(np.vdot(e, e).real) for e in every)
+    if not 1 < found <= LOUD or not size:
+        return 1.0
+    alike = sum(float(np.vdot(e[1:], e[:-1]).real) for e in every) / size
+    return found if alike * found < _SMOOTH * (found - 1) else 1.0
+
+
+def _sequences(one: Fit) -> Iterator[np.ndarray]:
+    """Complex residuals of each function, line by line."""
+    start = 0
     for block in one.model.base.data.blocks:
         q = int(block.has.sum())
         parts = one.point.residual[2 * start : 2 * (start + q)].reshape(2, q)
@@ -24,9 +48,8 @@ def correlated(one: Fit) -> float:
         for o, i in np.ndindex(block.has.shape[1:]):
             e = whole[block.has[:, o, i], o, i]
             if len(e) >= _FEW:
-                total, count = total + len(e) * _time(e), count + len(e)
+                yield e
         start += q
-    return total / count if count else 1.0
 
 
 def _time(e: np.ndarray) -> float:

@@ -84,12 +84,14 @@ def _largest(H: np.ndarray) -> np.ndarray:
 @dataclass(frozen=True)
 class FrfData:
     """All FRFs of a diagnosis. theory (c,): sd of ln f of the lowest modes by what theory and mesh leave. alike: how many data say
-    the same. modes: measured beside them, their accuracies those of the test, as `theory` is that of both.
+    the same. scale: of the variances, over what they were held to be. modes: measured beside them, their accuracies those of the
+    test, as `theory` is that of both.
     """
 
     blocks: tuple[Lines, ...]
     theory: np.ndarray = field(default_factory=lambda: np.zeros(0))
     alike: float = 1.0
+    scale: float = 1.0
     modes: Data | None = None
     by_shape: bool = True  # modes are told apart by what several sensors read
 
@@ -113,7 +115,7 @@ class FrfData:
         """The same where `alike` data say the same, and variances are `scale` times what they were held to be."""
         more = np.sqrt(alike * scale)
         blocks = tuple(replace(block, sd=block.sd * more) for block in self.blocks)
-        return replace(self, blocks=blocks, alike=self.alike * alike)
+        return replace(self, blocks=blocks, alike=self.alike * alike, scale=self.scale * scale)
 
     @property
     def middle(self) -> float:

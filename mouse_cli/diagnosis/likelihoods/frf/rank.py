@@ -9,7 +9,7 @@ from typing import ClassVar
 import numpy as np
 
 from mouse_cli.diagnosis.gates import GATE
-from mouse_cli.diagnosis.likelihoods.frf.correlated import correlated
+from mouse_cli.diagnosis.likelihoods.frf.correlated import correlated, scatter
 from mouse_cli.diagnosis.likelihoods.frf.damping import damping
 from mouse_cli.diagnosis.likelihoods.frf.data import FrfData, lines
 from mouse_cli.diagnosis.likelihoods.frf.judge import BRIEF, THIN, Judge
@@ -215,8 +215,8 @@ def _theory(one: Fit) -> np.ndarray:
 
 
 def _scatter(nearest: Fit) -> float:
-    """Variance of the data over what it was held to be: 1 where a deck states it, else what the nearest fit leaves."""
-    return nearest.misfit / nearest.dof if nearest.model.base.data.assumed else 1.0
+    """Variance of the data over what it was held to be: what the nearest fit leaves, of what a deck states if that is scatter."""
+    return nearest.misfit / nearest.dof if nearest.model.base.data.assumed else scatter(nearest)
 
 
 def _promising(modal: Ranking) -> list[Fit]:
