@@ -9,7 +9,7 @@ from mouse_cli.model.units import Units
 from mouse_cli.report.blocks import Cell, heads
 
 _ALL = 0.9  # upper end of a share from which on its end is all of what there is
-LEAST = 0.005  # probability within a group below which a member is not printed
+LEAST = 0.01  # probability within a group below which a member is not printed
 
 
 def probable(p: float) -> str:
