@@ -79,6 +79,11 @@ MODELS = {
 """,
         [(1, "TY"), (5, "TY"), (13, "TY"), (17, "TY"), (26, "TX")],
     ),
+    "armed": (
+        CANTILEVER + "      - {id: 43, type: mass, nodes: [31], mass: 1.5, Jz: 2.0e-3, offset: [0.02, 0.06, 0]}\n"
+        "    supports: {1: all}\n    plane: XY\n",
+        [(9, "TY"), (17, "TY"), (24, "TY"), (31, "TY")],
+    ),
     "clad": (
         f"""
   structure:
@@ -284,7 +289,7 @@ def deck(name: str, folder) -> "Problem":  # noqa: F821
 
 _E = "parameters:\n  - {name: E, material: steel, property: E, sd: 3 %}\n"
 _PARAMETERS = dict.fromkeys(
-    ("cantilever", "bedded", "girder", "free", "portal", "tee", "space", "tower", "frame", "weighed", "pinned"), _E
+    ("cantilever", "bedded", "girder", "free", "portal", "tee", "space", "tower", "frame", "weighed", "pinned", "armed"), _E
 )
 _PARAMETERS["laden"] = _E + "  - {name: tip, elements: 43, property: mass, sd: 30 %}\n"
 _PARAMETERS["frame"] = _E + "  - {name: load, elements: 41-44, property: nonstructural_mass, sd: 20 %}\n"
@@ -302,6 +307,7 @@ OWN = {
     "pinned": {"support-restraint"},
     "girder": {"eccentric-bearing"},
     "bedded": {"void"},
+    "armed": {"sprung-mass", "item-offset", "mass-loss", "mount-rotation"},
     "clad": {"added-mass", "floor-mass", "taper"},
 }
 CASES = [(name, key) for name in MODELS for key in registry() if key in OWN.get(name, {key})]

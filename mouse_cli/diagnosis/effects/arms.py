@@ -12,7 +12,7 @@ from mouse_cli.diagnosis.likelihoods.modal.scales import span
 from mouse_cli.diagnosis.sites.attached import Attached, attached
 from mouse_cli.diagnosis.sites.ends import ends, laden
 from mouse_cli.diagnosis.sites.points import wanted
-from mouse_cli.model.mesh import RigidLink
+from mouse_cli.model.mesh import ElementSet, RigidLink
 
 _MOST = 40  # nodes that are looked at
 _LONGEST = 0.3  # of the structure
@@ -63,6 +63,12 @@ def at_end(model: Reduced, rows: np.ndarray, vector: np.ndarray) -> np.ndarray:
     turned = np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])  # times a vector: its product with that of the arm
     turned[[d for d in range(3) if d not in model.problem.mesh.directions]] = 0.0
     return rows[:3] + turned @ rows[3:]
+
+
+def offset(members: ElementSet) -> np.ndarray:
+    """The vector (3,) from their nodes to the point masses of a set."""
+    given = members.options.get("offset")
+    return np.zeros(3) if given is None else np.asarray(given, float)
 
 
 def with_arm(edit: Edit, node: int, vector: np.ndarray) -> int:

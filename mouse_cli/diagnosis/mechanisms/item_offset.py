@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mouse_cli.diagnosis.effects.arms import arm, arms, at_end, with_arm
+from mouse_cli.diagnosis.effects.arms import arm, arms, at_end, offset, with_arm
 from mouse_cli.diagnosis.effects.change import Change, Recipe
 from mouse_cli.diagnosis.effects.losses import matrices_of
 from mouse_cli.diagnosis.extend.edit import Edit
@@ -45,14 +45,15 @@ def _recipe(model: Reduced, candidate: Candidate, own: list[tuple], count: int) 
     mesh = model.problem.mesh
     unknowns, grid, axes = arms(model, own[0][2])
     alone = attached(model, [own[0][2]])[0] if len(own) == 1 else None
+    off = offset(mesh.elements[own[0][0]])
     rows = [(model.node(node) if alone is None else alone.rows, m) for _, _, node, m, _ in own]
-    still = sum(m * u[:3].T @ u[:3] for u, m in rows)
+    still = sum(m * B.T @ B for B, m in ((at_end(model, u, off), m) for u, m in rows))
     ids = tuple(int(mesh.elements[s].ids[i]) for s, i, *_ in own)
     position = tuple(mesh.coordinates[own[0][2]].tolist()) if len(own) == 1 else None
     site = Site("element", ids, position, f"mass{'es' if len(ids) > 1 else ''} {', '.join(map(str, ids))}")
 
     def change(values: np.ndarray) -> Change:
-        moved = [(at_end(model, u, arm(values, axes)), m) for u, m in rows]
+        moved = [(at_end(model, u, off + arm(values, axes)), m) for u, m in rows]
         M = sum(m * B.T @ B for B, m in moved) - still
         return Change(M=M) if alone is None else Change(K=alone.K, M=alone.with_mass(M), sensing=alone.sensing)
 

@@ -4,6 +4,7 @@ from itertools import combinations
 
 import numpy as np
 
+from mouse_cli.diagnosis.effects.arms import at_end, offset, with_arm
 from mouse_cli.diagnosis.effects.change import Change, Recipe, Unknown, product, steps
 from mouse_cli.diagnosis.effects.losses import matrices_of
 from mouse_cli.diagnosis.extend.edit import Edit
@@ -14,6 +15,8 @@ from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.mesh import RigidLink
 from mouse_cli.model.problem import Problem
+
+Item = tuple[int, int, np.ndarray, float]  # number of the element, node (index), vector (3,) from there to the mass, and kg
 
 _MOST = 12  # point masses that are looked at, the heaviest
 _STILL = 0.02  # share of the largest motion in a measured mode below which a direction does not take part
@@ -26,7 +29,7 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     Half of the prior is of one axis, half of several that are alike.
     """
     found, count = _heaviest(model), model.low_modes()
-    moved = [np.abs(model.node(node)[:3, :count]).max(axis=1) for *_, node, _ in found]
+    moved = [np.abs(at_end(model, model.node(node), off)[:, :count]).max(axis=1) for _, node, off, _ in found]
     least = _STILL * max((each.max() for each in moved), default=0.0)
     taking = [[d for d in range(3) if own[d] > least] for own in moved]
     some = lambda n: [(*each, axes) for each, own in zip(found, taking, strict=True) for axes in combinations(own, n)]
@@ -34,25 +37,33 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     return [_recipe(model, candidate, *each, len(kind) * len(kinds)) for kind in kinds for each in kind]
 
 
-def _heaviest(model: Reduced) -> list[tuple[int, int, float]]:
-    """Number of the element, node (index) and mass (kg) of those that a body as light as bodies may be can be a part of."""
+def _heaviest(model: Reduced) -> list[Item]:
+    """Those that a body as light as bodies may be can be a part of."""
     mesh, found = model.problem.mesh, []
     for s, members in enumerate(() if mesh is None else mesh.elements):
         if members.type == "mass":
             masses = [float(M[0, 0]) for M in matrices_of(model, s)["M"]]
-            found += zip(members.ids.tolist(), members.nodes[:, 0].tolist(), masses, strict=True)
-    found = [each for each in found if each[2] > BODY[0] * total_mass(model)]
-    return sorted(sorted(found, key=lambda each: -each[2])[:_MOST])
+            offsets = [offset(members)] * len(masses)
+            found += zip(members.ids.tolist(), members.nodes[:, 0].tolist(), offsets, masses, strict=True)
+    found = [each for each in found if each[3] > BODY[0] * total_mass(model)]
+    return sorted(sorted(found, key=lambda each: -each[3])[:_MOST], key=lambda each: each[0])
 
 
 def _recipe(
-    model: Reduced, candidate: Candidate, number: int, node: int, mass: float, axes: tuple[int, ...], count: int
+    model: Reduced,
+    candidate: Candidate,
+    number: int,
+    node: int,
+    off: np.ndarray,
+    mass: float,
+    axes: tuple[int, ...],
+    count: int,
 ) -> Recipe:
     hz = np.sqrt([lowest(model), highest(model)]) / (2 * np.pi)
     share = Unknown("share of the mass", "1", max(0.02, BODY[0] * total_mass(model) / mass), 1.0)
     f = Unknown("frequency", "Hz", 0.3 * hz[0], 1.5 * hz[1])
     measured = model.data.test.frequency_hz[model.data.has_frequency]
-    B = model.node(node)[list(axes)]
+    B = at_end(model, model.node(node), off)[list(axes)]
     a, along = len(axes), np.hstack([B, -np.eye(len(axes))])
     moved = np.pad(-B.T @ B, (0, a)) + np.diag(np.append(np.zeros(B.shape[1]), np.ones(a)))
     site = Site("element", (number,), tuple(model.problem.mesh.coordinates[node].tolist()), _text(number, axes))
@@ -83,7 +94,9 @@ def _hung(problem: Problem, number: int, axes: tuple[int, ...], share: float, ma
     """The deck with `share` of mass `number` on a node of its own, on a spring along some axes and fixed across them."""
     edit = Edit(problem)
     element = edit.element(number)
-    host = int(edit.sets[element[0]].nodes[element[1], 0])
+    members = edit.sets[element[0]]
+    host, off = int(members.nodes[element[1], 0]), offset(members)
+    host = with_arm(edit, host, off) if off.any() else host
     free = edit.node(edit.coordinates[host])
     across = tuple(each for each in range(3) if each not in axes and each in problem.mesh.directions)
     edit.links += [RigidLink(host, free, across)] if across else []
