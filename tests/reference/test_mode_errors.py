@@ -90,6 +90,16 @@ def test_columns_that_stand_in_the_place_of_others_are_told(tmp_path, frequency,
     assert [said.split(" have one")[0] for said in _twice(ranking)] == ["Modes 3 and 4"] * len(twice)
 
 
+@pytest.mark.parametrize(("third", "twice"), [(0.0, [(0, 1)]), (1.0, [])])
+def test_two_modes_of_one_shape_that_the_model_has_are_no_mode_twice(third, twice):
+    """Where it has them, but is compared by another one: a mode of the right wing was identified twice, as the left one has it."""
+    other, shape = np.array([1.0, -1, 1, -1, 1]), np.array([1.0, 2, 3, 2, 1])
+    seen = np.column_stack([shape, other, third * shape + (1 - third) * other])
+    point = SimpleNamespace(eigenvalues=np.array([1.0, 1.01, 1.02]), modes=np.array([0, 1]), seen=seen, measured=lambda own: own[:, :2])
+    test = SimpleNamespace(shapes=np.column_stack([shape, shape]), frequency_hz=np.array([5.0, 5.01]), m=2)
+    assert repeated(SimpleNamespace(data=SimpleNamespace(test=test), point=point), twice=True) == twice
+
+
 def test_a_shape_of_noise_is_no_physics(tmp_path):
     noise = np.random.default_rng(3).uniform(-1, 1, len(SENSORS))
     found = mouse_cli.diagnose(mouse_cli.read_deck(deck(tmp_path, {}, {3: noise})))

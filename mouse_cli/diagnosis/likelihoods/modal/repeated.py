@@ -23,7 +23,14 @@ def repeated(one: Fit, twice: bool = False) -> list[tuple[int, int]]:
     with np.errstate(invalid="ignore"):
         apart = np.abs(np.subtract.outer(np.log(test.frequency_hz), np.log(test.frequency_hz))) > _APART
     found = np.argwhere(np.triu(alike & (apart != twice) & (mac(own, own) < _OTHER), 1))
-    return [(int(i), int(j)) for i, j in found]
+    several = _several(one) if len(found) else np.zeros(test.m, bool)
+    return [(int(i), int(j)) for i, j in found if not several[[i, j]].all()]
+
+
+def _several(one: Fit) -> np.ndarray:
+    """Mask (m,) of measured modes that two modes of a fit or more look like, whether they were measured or not."""
+    low = one.point.eigenvalues <= 4 * one.point.eigenvalues[one.point.modes].max()
+    return (np.nan_to_num(mac(one.data.test.shapes, one.point.seen[:, low])) > _OTHER).sum(axis=1) > 1
 
 
 def exchanged(one: Fit) -> list[tuple[int, int]]:
