@@ -95,7 +95,7 @@ def test_two_modes_of_one_shape_that_the_model_has_are_no_mode_twice(third, twic
     """Where it has them, but is compared by another one: a mode of the right wing was identified twice, as the left one has it."""
     other, shape = np.array([1.0, -1, 1, -1, 1]), np.array([1.0, 2, 3, 2, 1])
     seen = np.column_stack([shape, other, third * shape + (1 - third) * other])
-    point = SimpleNamespace(eigenvalues=np.array([1.0, 1.01, 1.02]), modes=np.array([0, 1]), seen=seen, measured=lambda own: own[:, :2])
+    point = SimpleNamespace(eigenvalues=1 + 0.01 * np.arange(3), modes=np.array([0, 1]), seen=seen, measured=lambda own: own[:, :2])
     test = SimpleNamespace(shapes=np.column_stack([shape, shape]), frequency_hz=np.array([5.0, 5.01]), m=2)
     assert repeated(SimpleNamespace(data=SimpleNamespace(test=test), point=point), twice=True) == twice
 
