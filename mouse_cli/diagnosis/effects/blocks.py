@@ -30,7 +30,7 @@ def blocks(model: Reduced, candidate: Candidate, turning: bool) -> list[Recipe]:
     """A recipe for each support that the measured modes load, in translation or in rotation."""
     if model.problem.held is not None:
         return []
-    found = released(model, range(3, 6) if turning else range(3), _MOST, light=True)
+    found = released(model, range(3, 6) if turning else range(3), most=_MOST, light=True)
     return [] if found is None else [_recipe(model, candidate, found, n) for n in range(len(found.held))]
 
 

@@ -84,7 +84,7 @@ def _recipe(model: Reduced, candidate: Candidate, found: Turns, sets: list[list[
     number = np.repeat(np.arange(len(sets)), [len(own) for own in sets])
     site = support_site(model.problem, [found.free[i] for i in which])
     change = lambda values: Change(K=rows.T @ np.linalg.solve(np.diag(1 / values[number]) + R, rows))
-    extend = lambda problem, values: sprung(problem, model.problem, turned, values, "N m/rad", released=False)
+    extend = lambda problem, values: sprung(problem, model.problem, turned, values, released=False)
     own = dofs(model.problem, turned)
     grid = product(*(steps(each, 6 if len(sets) == 1 else 4) for each in k))
     return Recipe(candidate, tuple(k), change, grid, lambda values: site, log_prior=share, extend=extend, dofs=own)

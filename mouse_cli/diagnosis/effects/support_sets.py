@@ -86,8 +86,13 @@ def stiffness_name(problem: Problem, sets: list[list[Held]], i: int) -> str:
     return f"stiffness of the support{by_node}{by_direction}"
 
 
+def unit_of(direction: int) -> str:
+    """Unit of the stiffness of a support along a direction, or about it."""
+    return "N m/rad" if direction >= 3 else "N/m"
+
+
 def sprung(
-    problem: Problem, known: Problem, sets: list[list[Held]], values: np.ndarray, unit: str, released: bool
+    problem: Problem, known: Problem, sets: list[list[Held]], values: np.ndarray, released: bool
 ) -> Problem:
     """The deck with springs of `values`, one a set of supports of `known`; released: in their place, else in addition to them."""
     edit = Edit(problem)
@@ -97,5 +102,5 @@ def sprung(
         if released:
             edit.supports = [each for each in edit.supports if each not in {(node, d) for node in nodes}]
         springs = edit.add("spring", [[node] for node in nodes], {DIRECTIONS[d]: value})
-        edit.bind(f"stiffness of {support_site(known, held).text}", springs, (DIRECTIONS[d],), unit=unit)
+        edit.bind(f"stiffness of {support_site(known, held).text}", springs, (DIRECTIONS[d],), unit=unit_of(d))
     return edit.done()

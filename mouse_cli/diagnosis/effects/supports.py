@@ -25,6 +25,7 @@ from mouse_cli.diagnosis.effects.support_sets import (
     stiffness_name,
     support_sets,
     support_site,
+    unit_of,
 )
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
@@ -64,10 +65,30 @@ def yielding(model: Reduced, candidate: Candidate, turning: bool) -> list[Recipe
         return []
     single, *together = [kind for kind in _sets(model, found) if kind]
     return [
-        _recipe(model, candidate, found, which, turning, -float(np.log(len(kind) * some * (1 + bool(together)))))
+        _recipe(model, candidate, found, which, -float(np.log(len(kind) * some * (1 + bool(together)))))
         for kind, some in [(single, 1), *((kind, len(together)) for kind in together)]
         for which in kind
     ]
+
+
+def loose(model: Reduced, candidate: Candidate) -> list[Recipe]:
+    """A recipe for the support of each node that is held along an axis and against turning: it gives along one, or along all that
+    bear, and turns, each with a stiffness of its own.
+    """
+    found = None if model.problem.held is not None else released(model, range(3), range(3, 6))
+    sets = [] if found is None else _lifted(found)
+    return [_recipe(model, candidate, found, each, -float(np.log(len(sets)))) for each in sets]
+
+
+def _lifted(found: Released) -> list[list[list[int]]]:
+    """Supports by number that are loose together: of each node those against turning, with one along an axis or all of these."""
+    sets = []
+    for node in dict.fromkeys(node for node, _ in found.held):
+        along = [[i] for i, (n, d) in enumerate(found.held) if n == node and d < 3]
+        turns = [[i] for i, (n, d) in enumerate(found.held) if n == node and d >= 3]
+        some = [[each] for each in along] + ([along] if len(along) > 1 else []) if turns else []
+        sets += [own + turns for own in some]
+    return sets
 
 
 def _sets(model: Reduced, found: Released) -> tuple[list[list[list[int]]], ...]:
@@ -93,22 +114,29 @@ def _grid(found: Released, sets: list[list[int]], k: list[Unknown]) -> np.ndarra
     """Stiffnesses to begin from: all combinations of few; of several nodes in two directions those that are alike in each."""
     directions = [found.held[own[0]][1] for own in sets]
     kinds = list(dict.fromkeys(directions))
-    if len(kinds) == 1 or len(kinds) == len(sets):
+    if len({d < 3 for d in directions}) > 1:  # loose along and in turning
+        kinds = directions = [d < 3 for d in directions]
+        kinds = list(dict.fromkeys(kinds))
+    elif len(kinds) == 1 or len(kinds) == len(sets):
         return product(*(steps(each, _STARTS.get(len(sets), 3)) for each in k))
     count = _STARTS[1]
     levels, own = np.array([steps(each, count) for each in k]), [kinds.index(d) for d in directions]
     return np.array([levels[np.arange(len(k)), at[own]] for at in product(*[np.arange(count)] * len(kinds))])
 
 
-def released(model: Reduced, kinds: range, most: int = _MOST, light: bool = False) -> Released | None:
-    """The loaded supports in the directions `kinds`, `most` at most; None where there are none. light: those without mass too."""
-    held = _candidates(model, kinds)
-    if not held:
+def released(model: Reduced, *kinds: range, most: int = _MOST, light: bool = False) -> Released | None:
+    """The loaded supports in the directions of each of `kinds`, `most` at most of each; None where one has none. light: those
+    without mass too.
+    """
+    each = [_candidates(model, own) for own in kinds]
+    if not all(each):
         return None
     free = free_model(model)
-    held, s, load = _loaded(model, held, free, most, light)
-    if not held:
+    known = [_loaded(model, own, free, most, light) for own in each]
+    if not all(own for own, *_ in known):
         return None
+    held = [one for own, *_ in known for one in own]
+    s, load = (np.concatenate([own[i] for own in known]) for i in (1, 2))
     moved = followed(model, free, static(model, free, s, np.eye(len(s))))
     return Released(tuple(held), moved, resistance(model, moved.K, moved.M), load)
 
@@ -141,17 +169,18 @@ def _loaded(
 
 
 def _recipe(
-    model: Reduced, candidate: Candidate, found: Released, sets: list[list[int]], turning: bool, share: float
+    model: Reduced, candidate: Candidate, found: Released, sets: list[list[int]], share: float
 ) -> Recipe:
     """sets: supports by number, those of each list with one stiffness."""
-    unit, which = "N m/rad" if turning else "N/m", [i for own in sets for i in own]
+    which = [i for own in sets for i in own]
     held = [[found.held[i] for i in own] for own in sets]
-    k = [Unknown(stiffness_name(model.problem, held, i), unit, *_range(found, own)) for i, own in enumerate(sets)]
+    unit = [unit_of(own[0][1]) for own in held]
+    k = [Unknown(stiffness_name(model.problem, held, i), unit[i], *_range(found, own)) for i, own in enumerate(sets)]
     moved = found.moved.part(which, model.r)
     number = np.repeat(np.arange(len(sets)), [len(own) for own in sets])
     site = support_site(model.problem, [found.held[i] for i in which], len(which) > len(sets))
     change = lambda values: moved.on_springs(values[number])
-    extend = lambda problem, values: sprung(problem, model.problem, held, values, unit, released=True)
+    extend = lambda problem, values: sprung(problem, model.problem, held, values, released=True)
     return Recipe(
         candidate,
         tuple(k),
