@@ -8,7 +8,7 @@ CANDIDATE = Candidate(
     "loose-support",
     "a loose support",
     "support",
-    "the support of one node that gives along one axis, or along all, and turns besides: anchors or bolts that are loose, a foot that "
+    "the support of one node that gives along one axis, or along all, and turns: anchors or bolts that are loose, a foot that "
     "lifts; each direction with a stiffness of its own",
     loose,
     supports,

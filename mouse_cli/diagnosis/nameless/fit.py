@@ -50,8 +50,13 @@ def significant(one: Fit) -> bool:
 
 
 def _in_words(field: Smooth, values: np.ndarray, sd: np.ndarray, over: float) -> Field:
-    """A field by its values (c,), their sd and its log evidence over all that has a name."""
-    sites = tuple(FieldValue(*each) for each in zip(field.cells.sites, values.tolist(), sd.tolist(), strict=True))
+    """A field by its values (c,), their sd and its log evidence over all that has a name; each place once, though a bar that
+    bends in two planes has a cell in each, of one value.
+    """
+    found: dict[tuple, FieldValue] = {}
+    for site, value, own in zip(field.cells.sites, values.tolist(), sd.tolist(), strict=True):
+        found.setdefault((site, f"{value:.6e}"), FieldValue(site, value, own))
+    sites = tuple(found.values())
     return Field(field.rival.property, sites, field.spread, field.length, field.cells.unit, over)
 
 
