@@ -15,6 +15,6 @@ def test_a_bar_that_bends_in_two_planes_is_one_place():
         cells=SimpleNamespace(sites=sites, unit="m"), rival=SimpleNamespace(property="spring"), spread=0.3, length=1.0
     )
     found = _in_words(field, np.array([0.5, 0.25, 0.5 + 1e-15, 0.25]), np.full(4, 0.1), 3.0)
-    assert [each.site.ids for each in found.sites] == [(1,), (2,)]
+    assert [each.site.ids for each in found.values] == [(1,), (2,)]
     apart = _in_words(field, np.array([0.5, 0.25, -0.5, 0.25]), np.full(4, 0.1), 3.0)
-    assert [each.value for each in apart.sites] == [0.5, 0.25, -0.5]
+    assert [each.value for each in apart.values] == [0.5, 0.25, -0.5]

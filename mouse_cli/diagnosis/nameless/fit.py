@@ -20,6 +20,7 @@ from mouse_cli.diagnosis.search.optima import NEAR, within
 from mouse_cli.model.diagnosis import Field, FieldValue, HeldOut
 from mouse_cli.model.field import SHOWN
 from mouse_cli.model.problem import Problem
+from mouse_cli.model.site import as_read
 
 _STEPS, _TRIED = 25, 3  # of a fit; starts of a change of rank one
 
@@ -55,7 +56,7 @@ def _in_words(field: Smooth, values: np.ndarray, sd: np.ndarray, over: float) ->
     """
     found: dict[tuple, FieldValue] = {}
     for site, value, own in zip(field.cells.sites, values.tolist(), sd.tolist(), strict=True):
-        found.setdefault((site, f"{value:.6e}"), FieldValue(site, value, own))
+        found.setdefault((*as_read((site,)), f"{value:.6e}"), FieldValue(site, value, own))
     sites = tuple(found.values())
     return Field(field.rival.property, sites, field.spread, field.length, field.cells.unit, over)
 
