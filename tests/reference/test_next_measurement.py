@@ -145,9 +145,9 @@ def test_shapes_that_are_alike_are_no_proof():
 
 
 def test_supports_of_a_model_are_released_once(tmp_path, monkeypatch):
-    """A column on its foot, two masses as rivals on it: each model makes its supports once, however many are let go."""
+    """A column between two clamps, two masses as rivals on it: each model makes its supports once, however many are let go."""
     path = tmp_path / "column.yaml"
-    path.write_text(COLUMN)
+    path.write_text(COLUMN.replace("{1: all}", "{1: all, 7: all}"))
     deck = read_deck(str(path))
     base, mass, asked = reduced(deck, deck.prior.mean), registry()["mass"], []
     recipe = mass.recipes(base, mass)[0]
@@ -162,6 +162,17 @@ def test_supports_of_a_model_are_released_once(tmp_path, monkeypatch):
     for each in several:
         separated(*found, each)
     assert len(asked) <= 2 * len({id(one.model.base) for one in found})
+    assert all("TY" not in each.text for each in several)  # what bears the weight
+
+
+def test_nobody_lets_a_tower_go_from_its_foot(tmp_path):
+    path = tmp_path / "column.yaml"
+    path.write_text(COLUMN)
+    deck, mass = read_deck(str(path)), registry()["mass"]
+    base = reduced(deck, deck.prior.mean)
+    recipe = mass.recipes(base, mass)[0]
+    one = fit(Model(base, (recipe,)), recipe.coordinates(np.array([1.0, 0.5])), most=3)
+    assert not [each for each in measurements(one) if each.kind == "released"]
 
 
 def test_a_sensor_on_a_support_reads_what_the_deck_with_that_support_on_a_spring_does(tmp_path):

@@ -10,11 +10,13 @@ import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Change, Recipe
 from mouse_cli.diagnosis.effects.sensors import name
+from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.likelihoods.modal.scales import highest, total_mass
 from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.diagnosis.search.fit import Fit
+from mouse_cli.diagnosis.sites.members import upward
 from mouse_cli.diagnosis.sites.points import Points, all_motions, directions
 from mouse_cli.model.diagnosis import Effort
 from mouse_cli.model.geometry import DIRECTIONS
@@ -23,6 +25,7 @@ _MORE = 3  # modes above the highest measured one
 _MASS = 0.05  # of the total mass, added
 _HELD = 1e2  # of total mass times the highest measured eigenvalue: the stiffness of what holds a point
 _PLACES = 12
+_STANDS = 0.25  # of the lowest eigenvalue, that one has without a support that is let go for a test, at least
 _SUPPORTS = 6  # supports that may be let go
 _BAND = 1.2  # of the highest measured frequency, up to which a test of the altered structure has modes
 SHAPE_SD = 0.02  # of the largest component: accuracy of shapes that were not measured yet
@@ -210,9 +213,23 @@ def _of_support(labels: tuple[str, ...]) -> Read:
 
 
 def _supports(base: Reduced, known: Yielding) -> list[tuple[int, str]]:
-    """Numbers, among all recipes of flexible supports, of those of one support alone, and what each is called."""
-    found = [(i, each.site(np.ones(1))) for i, each in enumerate(_yielding(base, known)) if len(each.unknowns) == 1]
-    return [(i, site.text) for i, site in found if len(site.ids) == 1][:_SUPPORTS]
+    """Numbers, among all recipes of flexible supports, of those of one support alone that nobody would mind to let go, and what
+    each is called.
+    """
+    found = [(i, each, each.site(np.ones(1))) for i, each in enumerate(_yielding(base, known)) if len(each.unknowns) == 1]
+    single = [(i, each, site.text) for i, each, site in found if len(site.ids) == 1]
+    return [(i, text) for i, each, text in single if _stands(base, each)][:_SUPPORTS]
+
+
+def _stands(base: Reduced, recipe: Recipe) -> bool:
+    """Whether the structure stands without a support much as it does with it, which does not bear its weight: no tower slides off
+    its base for a test, and no column is lifted.
+    """
+    if any(dof.endswith("XYZ"[upward(base.problem.mesh)]) and dof[-2] == "T" for dof in recipe.dofs):
+        return False
+    loose = Model(base, (replace(recipe, unknowns=(), change=lambda values, own=recipe.change(np.zeros(1)): own),))
+    found = loose.solved(base.z)
+    return found is not None and found[0][0] > _STANDS * base.least_elastic
 
 
 def _yielding(base: Reduced, known: Yielding) -> list[Recipe]:
