@@ -227,8 +227,8 @@ def _stands(base: Reduced, recipe: Recipe) -> bool:
     """
     if any(dof.endswith("XYZ"[upward(base.problem.mesh)]) and dof[-2] == "T" for dof in recipe.dofs):
         return False
-    loose = Model(base, (replace(recipe, unknowns=(), change=lambda values, own=recipe.change(np.zeros(1)): own),))
-    found = loose.solved(base.z)
+    own = recipe.change(np.zeros(1))
+    found = Model(base, (replace(recipe, unknowns=(), change=lambda values: own),)).solved(base.z)
     return found is not None and found[0][0] > _STANDS * base.least_elastic
 
 
