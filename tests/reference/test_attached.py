@@ -72,14 +72,20 @@ parameters:
         assert abs(sizes[name].value - value) < 3 * sizes[name].sd < value, name
 
 
-def plane(body: bool) -> tuple[np.ndarray, np.ndarray]:
-    """K and M of the upright and its arm, held at the foot; a body on HOST whose turn is a degree of freedom of its own."""
-    n = 3 * len(POINTS) + body
+def bars(n: int) -> tuple[np.ndarray, np.ndarray]:
+    """K and M (n, n) of the upright and its arm, held nowhere, in the first of n degrees of freedom."""
     K, M = np.zeros((n, n)), np.zeros((n, n))
     for i in range(len(POINTS) - 1):
         at = slice(3 * i, 3 * i + 6)
         for whole, own in zip((K, M), element(*POINTS[i : i + 2]), strict=True):
             whole[at, at] += own
+    return K, M
+
+
+def plane(body: bool) -> tuple[np.ndarray, np.ndarray]:
+    """K and M of the upright and its arm, held at the foot; a body on HOST whose turn is a degree of freedom of its own."""
+    n = 3 * len(POINTS) + body
+    K, M = bars(n)
     if body:
         x, y, turn = 3 * HOST, 3 * HOST + 1, n - 1
         M[[x, y], [x, y]] += BODY
@@ -115,6 +121,20 @@ def test_a_body_whose_mount_turns_is_named_with_its_stiffness():
     assert (found.kind, cause.physics, cause.site.text) == (NAMED, "mount-rotation", "mass 21, about Z")
     (k,) = cause.sizes
     assert abs(k.value - MOUNT) < 3 * k.sd < 0.2 * MOUNT
+
+
+def test_a_foot_that_lifts_and_turns_is_one_loose_support():
+    """It was a translation and a rotation, each of all supports."""
+    K, M = bars(3 * len(POINTS))
+    lifts, turns = 2e5, 8e2  # N/m, N m/rad
+    K[1, 1], K[2, 2] = K[1, 1] + lifts, K[2, 2] + turns
+    rows = {f"{node + 1}T{'XY'[d]}": 3 * node + d - 1 for node, d in SENSORS}
+    rivals = "loose-support", "support-translation", "support-rotation", "mass"
+    found = diagnose(read(deck_of_plane(modes(K[1:, 1:], M[1:, 1:], rows, 6))), choices=Choices(rivals, causes=2))
+    (cause,) = found.best.causes
+    assert (found.kind, cause.physics, cause.site.text) == (NAMED, "loose-support", "the support of node 1, TY and RZ")
+    for size, true in zip(cause.sizes, (lifts, turns), strict=True):
+        assert abs(size.value - true) < 3 * size.sd < 0.3 * true
 
 
 @pytest.mark.parametrize(

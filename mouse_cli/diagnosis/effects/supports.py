@@ -113,11 +113,10 @@ def _in_two(found: Released) -> list[list[list[int]]]:
 def _grid(found: Released, sets: list[list[int]], k: list[Unknown]) -> np.ndarray:
     """Stiffnesses to begin from: all combinations of few; of several nodes in two directions those that are alike in each."""
     directions = [found.held[own[0]][1] for own in sets]
+    loosened = len({d < 3 for d in directions}) > 1  # along axes and in turning, each as one
+    directions = [d < 3 for d in directions] if loosened else directions
     kinds = list(dict.fromkeys(directions))
-    if len({d < 3 for d in directions}) > 1:  # loose along and in turning
-        kinds = directions = [d < 3 for d in directions]
-        kinds = list(dict.fromkeys(kinds))
-    elif len(kinds) == 1 or len(kinds) == len(sets):
+    if not loosened and (len(kinds) == 1 or len(kinds) == len(sets)):
         return product(*(steps(each, _STARTS.get(len(sets), 3)) for each in k))
     count = _STARTS[1]
     levels, own = np.array([steps(each, count) for each in k]), [kinds.index(d) for d in directions]
