@@ -163,7 +163,7 @@ MUTANTS = (
         "search/rank.py",
         _SEVERAL,
         no_more_than_two=(
-            " or found.noise_scale > _LOUD",
+            " or found.noise_scale > LOUD",
             "",
             "test_masses_that_are_gone_are_named_one_by_one[gone1]",
         ),

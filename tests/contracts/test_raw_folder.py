@@ -144,7 +144,7 @@ def test_a_force_without_a_place_is_told(told):
         (("--recordings", "raw", "--force", "9=hammer"), "the model has no sensor '9'"),
         (("--recordings", "raw", "--force", "1=hammer", "--unit", "acc9=g"), "no recording uses a channel 'acc9'"),
         (("--recordings", "raw", "--force", "1=hammer", "-o", "other/deck.yaml"), "files below its own folder"),
-        (("deck.yaml", "--recordings", "raw"), "--recordings gives one deck its test"),
+        (("second.yaml", "--recordings", "raw"), "--recordings gives one deck its test"),
         (("--recordings", "raw", "--set", "NPARD=5"), "--set and --strip-73-80 are for card decks"),
         (("--recordings", ".."), "is not below the folder of the deck"),
         (("--recordings", "deck.yaml"), "is a file"),
@@ -152,6 +152,7 @@ def test_a_force_without_a_place_is_told(told):
 )
 def test_refusals(told, arguments, words):
     laboratory(Path("raw"), runs=1)
+    Path("second.yaml").write_text(Path("deck.yaml").read_text())
     code, out, err = told("deck.yaml", *arguments)
     assert code == 2 and not out and words in err
 

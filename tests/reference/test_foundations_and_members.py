@@ -148,10 +148,13 @@ def test_sensors_weigh_what_sensors_weigh():
 
 
 def test_mass_along_beams_beside_a_parameter_of_some():
-    more = "- {name: load, elements: 1-4, property: nonstructural_mass, sd: 10 %}"
-    found = of(COLUMN % ("", more) + TEST.format(1, 20, 60))
-    assert not registry()["added-mass"].recipes(found, registry()["added-mass"])
-    assert "nonstructural_mass" in registry()["added-mass"].why(found)
+    """A part of them can have more all the same, unless the parameter begins from nothing, which no factor makes more."""
+    more, added = "- {{name: load, elements: 1-4, property: nonstructural_mass, {}}}", registry()["added-mass"]
+    found = of(COLUMN % ("", more.format("sd: 10 %")) + TEST.format(1, 20, 60))
+    covered = added.recipes(found, added)
+    assert len(covered) == 3 and not any(recipe.site(recipe.grid[0]).kind == "structure" for recipe in covered)
+    found = of(COLUMN % ("", more.format("nominal: 0, sd: 1")) + TEST.format(1, 20, 60))
+    assert not added.recipes(found, added) and "nonstructural_mass" in added.why(found)
 
 
 def test_candidates_without_a_site_are_refused_with_those_that_have_one(tmp_path):
