@@ -84,10 +84,16 @@ def readings(test: ModalTest, n: int) -> np.ndarray:
 
 
 def misread(
-    model: Reduced, candidate: Any, rows: dict[int, np.ndarray], log_prior: float, extend: Callable[[Problem], Problem]
+    model: Reduced,
+    candidate: Any,
+    rows: dict[int, np.ndarray],
+    log_prior: float,
+    extend: Callable[[Problem], Problem],
+    how: str = "",
 ) -> Recipe:
-    """Sensors that read `rows` (r,) instead, by a fault without a size."""
+    """Sensors that read `rows` (r,) instead, by a fault without a size; how: what is said of them beside their names."""
     sensing, where = changed(model, rows), site(model.problem, *rows)
+    where = replace(where, text=f"{where.text}, {how}") if how else where
     nothing = np.zeros((1, 0))
     change = lambda values: Change(sensing=sensing)
     return Recipe(candidate, (), change, nothing, lambda values: where, 0, log_prior, lambda deck, values: extend(deck))

@@ -1,12 +1,11 @@
 """A sensor that stands at another node than the deck says, or reads another direction there: a label taken for its neighbour."""
 
 from collections.abc import Iterator
-from dataclasses import replace
 
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Recipe
-from mouse_cli.diagnosis.effects.sensors import misread, site, with_readings, worst_sensors
+from mouse_cli.diagnosis.effects.sensors import misread, with_readings, worst_sensors
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
@@ -64,7 +63,7 @@ def _others(problem: Problem, mount: Mount, places: dict[int, dict[int, int]]) -
     for own in places.values():
         if set(mount.values()) <= set(own.values()):
             yield from ({**mount, k: dof} for k in mount for dof in own.values() if dof not in taken)
-        elif all(own.get(d, next(iter(taken))) not in taken for d in direction.values()):
+        elif all(d in own and own[d] not in taken for d in direction.values()):
             yield {k: own[d] for k, d in direction.items()}
 
 
@@ -84,11 +83,8 @@ def _recipe(model: Reduced, candidate: Candidate, mount: Mount, other: Mount, pr
     n, moved = model.problem.structure.n, {k: dof for k, dof in other.items() if dof != mount[k]}
     rows = {k: np.eye(1, n, dof)[0] for k, dof in moved.items()}
     read = {k: model.V[dof] for k, dof in moved.items()}
-    recipe = misread(model, candidate, read, prior, lambda problem: with_readings(problem, rows))
-    labels = model.problem.structure.labels
-    where = site(model.problem, *moved)
-    where = replace(where, text=f"{where.text}, at {' and '.join(labels[dof] for dof in moved.values())}")
-    return replace(recipe, site=lambda values: where)
+    labels = " and ".join(model.problem.structure.labels[dof] for dof in moved.values())
+    return misread(model, candidate, read, prior, lambda problem: with_readings(problem, rows), f"at {labels}")
 
 
 CANDIDATE = Candidate(

@@ -1,12 +1,11 @@
 """A sensor of several axes that is mounted turned, by a right angle or half a turn."""
 
-from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
 
 from mouse_cli.diagnosis.effects.change import Recipe
-from mouse_cli.diagnosis.effects.sensors import misread, row, site, with_readings, worst_sensors
+from mouse_cli.diagnosis.effects.sensors import misread, row, with_readings, worst_sensors
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.model.problem import Problem
@@ -36,10 +35,7 @@ def _recipe(model: Reduced, candidate: Candidate, i: int, j: int, turn: str, pri
     one, other = _TURNS[turn]
     read = lambda own, beside: {i: one * beside, j: other * own} if one else {i: -own, j: -beside}
     corrected = lambda problem: with_readings(problem, read(row(problem, i), row(problem, j)))
-    recipe = misread(model, candidate, read(model.sensing[i], model.sensing[j]), prior, corrected)
-    both = site(model.problem, i, j)
-    where = replace(both, text=f"{both.text}, turned by {turn}")
-    return replace(recipe, site=lambda values: where)
+    return misread(model, candidate, read(model.sensing[i], model.sensing[j]), prior, corrected, f"turned by {turn}")
 
 
 CANDIDATE = Candidate(
