@@ -58,9 +58,11 @@ class Named:
 def several(named: Named, output: str | None) -> bool:
     """Whether decks are arrangements. Raises click.UsageError for what has no meaning, or where names would collide."""
     decks = named.fitted
-    places = [os.path.realpath(deck) for deck in (*decks, *named.unseen)]
-    if twice := next((deck for deck, own in zip((*decks, *named.unseen), places, strict=True) if places.count(own) > 1), ""):
-        raise click.UsageError(f"{twice} is given twice: a configuration counts once, to be fitted or held out")
+    seen: set[str] = set()
+    for deck in (*decks, *named.unseen):
+        if (place := os.path.realpath(deck)) in seen:
+            raise click.UsageError(f"{deck} is given twice: a configuration counts once, to be fitted or held out")
+        seen.add(place)
     if len(decks) == 1 and not named.unseen and not named.changed:
         return False
     if not any(named.having(decks)):

@@ -30,7 +30,7 @@ _SMALL = 0.2  # share of all places that the 90 % region may hold to point anywh
 _CHECK = "Check the value, or state a larger sd."
 _LEADING = 8  # explanations, by their evidence, that are asked for a parameter that strains them
 _AGAIN = 1.2  # times the stated scatter, up to which a test is as accurate as it says
-SCATTER = "scatter"  # error of the test: all of it scatters more than the deck says
+_SCATTER = "scatter"  # error of the test: all of it scatters more than the deck says
 _OFFSET = "offset"  # group of masses that are not at their nodes
 _CERTAIN = ("is less accurate than stated in the deck", "has an error")  # of all entries of a kind, and of one mode
 _POSSIBLE = ("may be less accurate than stated in the deck", "may have an error")
@@ -51,7 +51,7 @@ _TOLD = {
 def misstated(ranking: Ranking) -> str | None:
     """Key of the error that explains the data better than the accuracies of the deck do; None where those may be right."""
     if ranking.noise_scale > NOISY:
-        return SCATTER if _scattered(ranking) else None
+        return _SCATTER if _scattered(ranking) else None
     found = _doubts(ranking)
     return found[0].key if sum(each.probability for each in found) > _PROBABLE else None
 

@@ -1,9 +1,12 @@
 """Further mass per length on beams, whatever parameters say of theirs."""
 
+from collections.abc import Iterable
+
 import numpy as np
 
 from mouse_cli.diagnosis.extend.edit import Edit
 from mouse_cli.diagnosis.sites.lines import Line
+from mouse_cli.model.mesh import Binding
 from mouse_cli.model.problem import Problem
 
 _NAME = "nonstructural_mass"
@@ -42,12 +45,12 @@ def put_line_mass(edit: Edit, beams: list[tuple[int, int]], values: np.ndarray) 
     edit.put(beams, _NAME, values / np.array([factor.get(each, 1.0) for each in beams]))
 
 
-def _given(problem: Problem, bindings) -> dict[tuple[int, int], float]:
+def _given(problem: Problem, bindings: Iterable[Binding]) -> dict[tuple[int, int], float]:
     """Mass per length of the elements of which a parameter is that value."""
     return {
         (b.set, int(i)): problem.parameters[b.parameter].nominal
         for b in bindings
-        if b.property == _NAME and not b.factor and b.parameter < len(problem.parameters)
+        if b.property == _NAME and not b.factor
         for i in b.members
     }
 
@@ -56,7 +59,7 @@ def _factors(edit: Edit) -> dict[tuple[int, int], float]:
     """By what parameters of the deck multiply the mass per length of elements."""
     found: dict[tuple[int, int], float] = {}
     for b in edit.bindings:
-        if b.property == _NAME and b.factor and b.parameter < len(edit.problem.parameters):
+        if b.property == _NAME and b.factor:
             value = edit.problem.parameters[b.parameter].nominal
             found |= {(b.set, int(i)): value * found.get((b.set, int(i)), 1.0) for i in b.members}
     return found

@@ -29,12 +29,13 @@ def recipes(model: Reduced, candidate: Candidate) -> list[Recipe]:
     covered = [run for run in runs(model) if may_bear_more(model.problem, run)]
     if not covered:
         return heavier(model, candidate)
-    ended = [(run, LineIntegral(run)) for run in covered[:_MOST]]
+    wet = {id(run): LineIntegral(run) for run in covered}
+    ended = [(run, wet[id(run)]) for run in covered[:_MOST]]
     share = _PART / len(ended)
     one, both = 0.5 * (1 - _BETWEEN) * share, _BETWEEN * share
     m = _per_length(model.bars)
     partly = [_partly(candidate, *each, m, back, one) for each in ended for back in (False, True)]
-    return [*_all(model, candidate, m), *partly, *(_between(candidate, *each, m, both) for each in ended)]
+    return [*_all(model, candidate, wet, m), *partly, *(_between(candidate, *each, m, both) for each in ended)]
 
 
 def _per_length(bars: Bars) -> Unknown:
@@ -42,12 +43,12 @@ def _per_length(bars: Bars) -> Unknown:
     return Unknown("mass per length", "kg/m", 1e-3 * mean, _HEAVIEST * mean)
 
 
-def _all(model: Reduced, candidate: Candidate, m: Unknown) -> list[Recipe]:
-    """On all bars of rows without a parameter for it; none where every row has one, which says as much."""
+def _all(model: Reduced, candidate: Candidate, wet: dict[int, LineIntegral], m: Unknown) -> list[Recipe]:
+    """On all bars of rows without a parameter for it; none where every row has one, which says as much. wet: by id of the row."""
     found, bars = runs(model, "nonstructural_mass"), model.bars
     if not found:
         return []
-    total = sum(LineIntegral(run).sums[-1] for run in found)
+    total = sum(wet[id(run)].sums[-1] for run in found)
     ids = tuple(sorted({int(bars.ids[i]) for run in found for i in run.members}))
     known = len(set(bars.ids.tolist())) - len(ids)
     named = "all beams" if not known else f"all beams but {known} whose mass is a parameter"

@@ -76,11 +76,15 @@ def remarks(ranking: Ranking) -> tuple[str, ...]:
     found, more = window_of(one), _scatters(one)
     said = []
     if found is not None:
-        text = "the FRFs are explained as H1 of blocks of {:.4g} s under a window '{}', which the deck does not state"
-        said.append(f"{text.format(found.seconds, found.name)}: check it, and give window: {found.name}")
+        said.append(
+            f"the FRFs are explained as H1 of blocks of {found.seconds:.4g} s under a window '{found.name}', which the deck does "
+            f"not state: check it, and give window: {found.name}"
+        )
     if more > 1:
-        text = "the FRFs scatter {:.2g} times as much as the deck states, from line to line, as noise does and physics does not"
-        said.append(f"{text.format(more)}: that is taken for their accuracy; give it, or average more")
+        said.append(
+            f"the FRFs scatter {more:.2g} times as much as the deck states, from line to line, as noise does and physics does not: "
+            "that is taken for their accuracy; give it, or average more"
+        )
     return tuple(said)
 
 
