@@ -194,7 +194,7 @@ def _proposals(ranking: Ranking, verdict: Verdict) -> tuple[Proposal, ...]:
     if best is None or verdict.kind in (NOTHING, UNKNOWN):
         return ()
     if not verdict.placed:
-        sites = [best, *(other for other, share in best.elsewhere[:_RIVALS] if share > RIVAL)]
+        sites = [best, *(other for i, (other, share) in enumerate(best.elsewhere[:_RIVALS]) if i == 0 or share > RIVAL)]
         return proposals(sites, [acting(one) for one in sites]) if len(sites) > 1 else ()
     names = {group(ranking.fits[i]) for i in ranking.named}
     others = [(name, p) for name, p in ranking.groups if name in names and name not in (group(best), *verdict.refuted)]

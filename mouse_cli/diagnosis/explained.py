@@ -5,10 +5,13 @@ import numpy as np
 from mouse_cli.diagnosis.companions import Shared
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.diagnosis.search.rank import Ranking
-from mouse_cli.model.diagnosis import RIVAL, Cause, Certain, Explanation, Site, Size
+from mouse_cli.model.diagnosis import Cause, Certain, Explanation, Size
+from mouse_cli.model.explanation import Places
 from mouse_cli.model.site import as_read
 from mouse_cli.model.units import Units
 from mouse_cli.updating.chi_square import upper_tail
+
+_LEAST = 1e-3  # share of a site below which it is no matter
 
 
 def explanations(ranking: Ranking) -> tuple[Explanation, ...]:
@@ -24,13 +27,13 @@ def explanation(one: Fit, probability: float = 0.0) -> Explanation:
     return Explanation(causes, one.misfit, one.dof, p, one.log_evidence, theta, probability, _elsewhere(one))
 
 
-def _elsewhere(one: Fit) -> tuple[tuple[tuple[Site, ...], float], ...]:
-    """Other sites of a fit and their probabilities, where these matter: optima that read alike are one, and none is its own."""
+def _elsewhere(one: Fit) -> Places:
+    """Other sites of a fit and their probabilities: optima that read alike are one, and none is its own."""
     found: dict[tuple, list] = {}
     for other, share in one.elsewhere:
         found.setdefault(as_read(other.sites), [other.sites, 0.0])[1] += share
     found.pop(as_read(one.sites), None)
-    return tuple((sites, share) for sites, share in found.values() if share > RIVAL)
+    return tuple((sites, share) for sites, share in found.values() if share > _LEAST)
 
 
 def certain(one: Fit, found: Shared) -> Certain:

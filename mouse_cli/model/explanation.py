@@ -9,6 +9,8 @@ from mouse_cli.model.groups import counted, joined, shares
 from mouse_cli.model.site import Site, as_read
 from mouse_cli.model.units import Units
 
+Places = tuple[tuple[tuple[Site, ...], float], ...]  # sites of one explanation, and their share in its probability
+
 RIVAL = 0.05  # probability of a group, or share of a place, from which on it is listed with the leading one
 
 
@@ -60,7 +62,7 @@ class Explanation:
     log_evidence: float
     theta: np.ndarray
     probability: float = 0.0
-    elsewhere: tuple[tuple[tuple[Site, ...], float], ...] = ()
+    elsewhere: Places = ()
 
     def __post_init__(self) -> None:
         order = sorted(range(len(self.causes)), key=lambda i: (self.causes[i].group, self.causes[i].physics))
@@ -96,8 +98,9 @@ def members(explanations: Sequence[Explanation], group: str) -> tuple[tuple[str,
     return shares([one.physics for one in own], [one.probability / total for one in own]) if total > 0 else ()
 
 
-def elsewhere(explanations: Sequence[Explanation], best: Explanation) -> tuple[tuple[tuple[Site, ...], float], ...]:
-    """Rival sites of the physics of `best` with more than RIVAL of its probability, the most probable first.
+def elsewhere(explanations: Sequence[Explanation], best: Explanation) -> Places:
+    """Rival sites of the physics of `best` with more than RIVAL of its probability, the most probable first; the first of all
+    where together they have more, and none has.
 
     Those of one fit stand in its `elsewhere`, others in explanations of the same physics; sites that read alike are the same.
     """
@@ -108,4 +111,6 @@ def elsewhere(explanations: Sequence[Explanation], best: Explanation) -> tuple[t
         for sites, share in (*one.elsewhere, (one.sites, 1 - sum(share for _, share in one.elsewhere))):
             found.setdefault(as_read(sites), [sites, 0.0])[1] += share * one.probability / total
     found.pop(as_read(best.sites), None)
-    return tuple(sorted(((s, p) for s, p in found.values() if p > RIVAL), key=lambda item: -item[1]))
+    every = sorted(((sites, share) for sites, share in found.values()), key=lambda each: -each[1])
+    open_ = sum(share for _, share in every) > RIVAL
+    return tuple(each for i, each in enumerate(every) if each[1] > RIVAL or (open_ and i == 0))

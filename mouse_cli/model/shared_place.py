@@ -8,6 +8,7 @@ import numpy as np
 from mouse_cli.model.mesh import Mesh
 from mouse_cli.model.site import Site
 
+_NEAR = 0.05  # of that dimension: within which sites are at one place
 _SAME = 1e-6  # of the largest dimension of the structure: within which coordinates are the same
 
 
@@ -37,6 +38,24 @@ def shared_place(mesh: Mesh | None, sites: Sequence[Site]) -> SharedPlace | None
     )
     nodes = tuple(int(mesh.node_ids[i]) for i in sorted(set.intersection(*map(set, found))))
     return SharedPlace(extents, nodes) if extents or nodes else None
+
+
+def at_one_place(mesh: Mesh | None, sites: Sequence[Site]) -> bool:
+    """Whether several sites, each a point or a node, are so near to each other that one look at the structure sees all of them."""
+    if mesh is None or len(sites) < 2:
+        return False
+    points = [_point(mesh, site) for site in sites]
+    if any(point is None for point in points):
+        return False
+    return bool(np.ptp(points, axis=0).max() <= _NEAR * np.ptp(mesh.coordinates, axis=0).max())
+
+
+def _point(mesh: Mesh, site: Site) -> np.ndarray | None:
+    """Coordinates (3,) of a site; None where it is no one point."""
+    own = _nodes(mesh, site) if site.kind == "node" and site.position is None else None
+    if site.position is not None:
+        return np.array(site.position)
+    return mesh.coordinates[own[0]] if own and len(own) == 1 else None
 
 
 def panels(mesh: Mesh | None, sites: Sequence[Site]) -> bool:

@@ -1,8 +1,10 @@
 """The verdict of a diagnosis in sentences: the same in printout, JSON document and page, for every kind of test."""
 
 from mouse_cli.model.diagnosis import BY_DECK, NAMED, NOTHING, ONE_OF, RIVAL, UNPROVED, Diagnosis, Explanation, Rest
+from mouse_cli.model.explanation import elsewhere
 from mouse_cli.model.groups import enumerated
 from mouse_cli.model.record_diagnosis import RecordDiagnosis
+from mouse_cli.model.shared_place import at_one_place
 from mouse_cli.report.field_words import field_acts, field_sentences
 from mouse_cli.report.sections._diagnosis_wording import (
     called,
@@ -164,6 +166,11 @@ def _one_of(found: Diagnosis) -> str:
 
 def _common(found: Diagnosis) -> str:
     """What all sites share between which the test does not decide: where to look."""
+    first = leaders(found)
+    if found.placed and len(first) > 1 and not _nameless(found):
+        sites = [sites for one in first for sites in (one.sites, *(other for other, _ in elsewhere(found.explanations, one)))]
+        near = all(len(each) == 1 for each in sites) and at_one_place(found.problem.mesh, [site for (site,) in sites])
+        return f"All of these act at or beside {where(first[0])}: an inspection there finds which it is." if near else ""
     if found.placed or found.shared is None:
         return ""
     return f"All of these sites share {in_common(found.shared, found.problem.units)}: an inspection there finds which it is."

@@ -1,5 +1,7 @@
 """Springs and axial forces that no mechanism of the library is: beams of finite elements written in `hermite_beams`."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from hermite_beams import LENGTH, Truth, deck
@@ -9,6 +11,7 @@ from scipy.optimize import minimize
 from mouse_cli.diagnosis import diagnose
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
+from mouse_cli.diagnosis.nameless import fit as fitted
 from mouse_cli.diagnosis.nameless import registry
 from mouse_cli.diagnosis.nameless._both import both
 from mouse_cli.diagnosis.nameless._field import fielded, smooth
@@ -16,7 +19,7 @@ from mouse_cli.diagnosis.nameless._tied import tied
 from mouse_cli.diagnosis.search.fit import fit
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
-from mouse_cli.model.diagnosis import AXIAL, FORCE, STIFFNESS, UNKNOWN, Choices
+from mouse_cli.model.diagnosis import AXIAL, FORCE, STIFFNESS, UNKNOWN, Choices, Site
 from mouse_cli.report.verdict_sentences import sentences
 
 NAMES = ("tension", "compression", "ground-spring", "mass", "stiffness-loss", "crack")
@@ -129,3 +132,26 @@ def test_an_axial_force_that_varies():
     assert np.corrcoef(value, pull(x))[0, 1] > 0.9
     assert (np.abs(value - pull(x)) < 3 * sd).mean() > 0.8
     assert halved(found.field.held_out) and not found.extended_result.rejected
+
+
+@pytest.mark.parametrize(
+    ("values", "order", "shown"),
+    [
+        ((0.1, 0.4), ("field-stiffness", "field-bed"), True),
+        ((0.3, 0.4), ("field-bed", "field-stiffness"), True),
+        ((0.1, 0.1), ("field-bed", "field-stiffness"), False),
+    ],
+)
+def test_of_two_rivals_at_once_that_which_is_shown_is_told_first(monkeypatch, values, order, shown):
+    """None of the values of the first differs from 0 by two standard deviations (of 0.1), or one does."""
+    sizes = {"field-bed": values[0], "field-stiffness": values[1]}
+    cells = SimpleNamespace(sites=(Site("node", (1,)),), unit="m")
+    named = lambda key: SimpleNamespace(rival=SimpleNamespace(property=key), cells=cells, spread=1.0, length=1.0)
+    base = SimpleNamespace(other=SimpleNamespace(nameless=named("field-stiffness")))
+    one = SimpleNamespace(nameless=named("field-bed"), model=SimpleNamespace(base=base))
+    of = lambda key: (np.array([sizes[key]]), np.array([0.1]))
+    monkeypatch.setattr(fitted, "mean_values", lambda one: of("field-bed"))
+    monkeypatch.setattr(fitted, "values_of_other", lambda one: of("field-stiffness"))
+    ranking = SimpleNamespace(fits=(one,), log_odds=(3.0,), named=[0])
+    found = fitted.field_of(ranking, one)
+    assert (found.property, found.beside.property) == order and fitted.significant(one) == shown

@@ -6,7 +6,7 @@ import numpy as np
 
 from mouse_cli.model.diagnosis import NAMED, ONE_OF, Cause, Diagnosis, Effort, Explanation, Proposal, Site
 from mouse_cli.model.mesh import ElementSet, Mesh
-from mouse_cli.model.shared_place import SharedPlace, shared_place
+from mouse_cli.model.shared_place import SharedPlace, at_one_place, shared_place
 from mouse_cli.model.units import Units
 from mouse_cli.report.verdict_document import shared, verdict
 from mouse_cli.report.verdict_sentences import sentences
@@ -85,3 +85,14 @@ def test_what_is_named_in_a_line_of_panels_joins_two_of_their_nodes():
         "position": None,
         "text": "between two of nodes 1, 2, 4, 5",
     }
+
+
+def test_points_and_nodes_within_five_per_cent_are_at_one_place():
+    """A crack a little above a foot, and the foot; not at the next node, and not where a site is spread or there is one alone."""
+    foot, size = Site("node", (1,)), np.ptp(MESH.coordinates, axis=0).max()
+    crack = lambda share: Site("element", (1,), tuple(MESH.coordinates[0] + [share * size, 0.0, 0.0]))
+    assert at_one_place(MESH, (foot, crack(0.04))) and at_one_place(MESH, (crack(0.0), crack(0.05)))
+    assert not at_one_place(MESH, (foot, crack(0.06)))
+    assert not at_one_place(MESH, (foot, Site("node", (2,))))
+    assert not at_one_place(MESH, (foot, Site("element", (1, 2)))) and not at_one_place(MESH, (foot, brace(1, 5)))
+    assert not at_one_place(MESH, (foot,)) and not at_one_place(None, (foot, foot))

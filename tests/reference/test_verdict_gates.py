@@ -31,6 +31,7 @@ from mouse_cli.model.diagnosis import (
     HeldOut,
     Score,
     Site,
+    elsewhere,
 )
 from mouse_cli.model.mesh import Mesh
 from mouse_cli.report.verdict_sentences import sentences
@@ -155,6 +156,27 @@ def test_one_of_several_sites_is_told_as_such():
     assert [name for name, _ in answer.rivals] == ["ground-spring"]
     first, _ = sentences(answer)
     assert "does not settle where: dof 2; or at dof 7 (probability of this site 0.30)" in first
+
+
+@pytest.mark.parametrize(("shares", "listed"), [((0.04, 0.03), [7]), ((0.04,), []), ((0.06, 0.04), [7]), ((0.3, 0.2), [7, 8])])
+def test_a_site_that_is_not_settled_is_listed_with_a_rival(shares, listed):
+    """The most probable of them where each has less than 0.05, and all together more."""
+    spring = lambda x: Cause("ground-spring", "ground-spring", "a spring", Site("dof", (x,)), ())
+    others = tuple(((spring(7 + i).site,), share) for i, share in enumerate(shares))
+    told = Explanation((spring(2),), 20.0, 20, 0.5, 0.0, np.zeros(2), 0.999, others)
+    assert [site.ids[0] for (site,), _ in elsewhere((told,), told)] == listed
+
+
+@pytest.mark.parametrize(("at", "said"), [(0.04, True), (0.06, False)])
+def test_several_mechanisms_at_one_place_are_said_to_be_there(at, said):
+    foot = Cause("support-rotation", "support", "a flexible support", Site("node", (1,)), ())
+    crack = Cause("crack", "local-stiffness", "an open crack", Site("element", (1,), (at, 0.0, 0.0)), ())
+    each = [Explanation((cause,), 20.0, 20, 0.5, 0.0, np.zeros(2), p) for cause, p in ((foot, 0.7), (crack, 0.3))]
+    mesh = SimpleNamespace(node_ids=np.array([1, 2]), coordinates=np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]))
+    groups = (("support", 0.7), ("local-stiffness", 0.3))
+    answer = Diagnosis(SimpleNamespace(mesh=mesh), ONE_OF, None, None, tuple(each), groups)
+    told = "All of these act at or beside node 1: an inspection there finds which it is." in sentences(answer)
+    assert told == said
 
 
 @pytest.mark.parametrize(("none", "kind"), [(0.019, NAMED), (0.021, ONE_OF), (0.099, ONE_OF), (0.11, NOTHING)])

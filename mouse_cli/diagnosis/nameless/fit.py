@@ -36,17 +36,25 @@ def rivals(base: Reduced, start: Fit, kind: type[Model] = Model, reach: float = 
 
 
 def field_of(ranking, one: Fit, held: HeldOut | None = None) -> Field:
-    """The field of a fit of a ranking in words and numbers, beside all that has a name there."""
+    """The field of a fit of a ranking in words and numbers, beside all that has a name there; of two that which is shown first."""
     odds = {id(each): float(value) for each, value in zip(ranking.fits, ranking.log_odds, strict=True)}
     named = max(odds[id(ranking.fits[i])] for i in ranking.named)
     over, other = odds[id(one)] - named, getattr(one.model.base, "other", None)
-    beside = other and _in_words(other.nameless, *values_of_other(one), over)
-    return replace(_in_words(one.nameless, *mean_values(one), over), held_out=held, beside=beside)
+    first = _in_words(one.nameless, *mean_values(one), over)
+    second = other and _in_words(other.nameless, *values_of_other(one), over)
+    if second and not _shown(*mean_values(one)) and significant(one):
+        first, second = second, first
+    return replace(first, held_out=held, beside=second)
 
 
 def significant(one: Fit) -> bool:
-    """Whether a value of the field of a fit differs from 0 by more than two standard deviations."""
-    values, sd = mean_values(one)
+    """Whether a value of the field of a fit, or of that beside it, differs from 0 by more than two standard deviations."""
+    beside = hasattr(one.model.base, "other") and _shown(*values_of_other(one))
+    return beside or _shown(*mean_values(one))
+
+
+def _shown(values: np.ndarray, sd: np.ndarray) -> bool:
+    """Whether any of values (c,) differs from 0 by so much."""
     return bool((np.abs(values) > SHOWN * sd).any())
 
 
