@@ -25,8 +25,9 @@ from mouse_cli.report.sections.records import _error, _proof
 from mouse_cli.report.verdict_sentences import remains
 from mouse_cli.terms.laws import registry
 from mouse_cli.updating.recordings.adequacy import missing, shift_p, shifted, unlikely
+from mouse_cli.updating.recordings.floors import floor
 from mouse_cli.updating.recordings.free_force import Spectrum
-from mouse_cli.updating.recordings.records import _floor, records
+from mouse_cli.updating.recordings.records import records
 from mouse_cli.updating.recordings.regression import Regression, Start
 from mouse_cli.updating.recordings.series import Series
 from mouse_cli.updating.recordings.study import fitted, study
@@ -223,13 +224,13 @@ def test_a_simulation_that_diverges_is_no_error_of_so_many_times():
 
 def test_floor_of_a_spectrum_is_the_sd_of_white_noise():
     rng = np.random.default_rng(1)
-    found = np.mean([_floor(rng.standard_normal((4096, 3))) for _ in range(10)], axis=0)
+    found = np.mean([floor(rng.standard_normal((4096, 3))) for _ in range(10)], axis=0)
     np.testing.assert_allclose(found, 1.0, rtol=0.03)
 
 
 @pytest.mark.parametrize("samples", [1, 2, 40])
-def test_a_few_samples_have_a_floor(samples):
-    assert np.isfinite(_floor(np.random.default_rng(7).standard_normal((samples, 3)))).all()
+def test_a_few_samples_have_afloor(samples):
+    assert np.isfinite(floor(np.random.default_rng(7).standard_normal((samples, 3)))).all()
 
 
 def test_candidates_have_one_registry_of_names(tmp_path):

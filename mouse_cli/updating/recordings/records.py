@@ -9,16 +9,13 @@ from mouse_cli.model.problem import Problem
 from mouse_cli.model.recording import MOTIONS, Channel, Recording
 from mouse_cli.updating.recordings import ground
 from mouse_cli.updating.recordings.disturbance import BLOCK, Disturbance
+from mouse_cli.updating.recordings.floors import floor
+from mouse_cli.updating.recordings.quietened import excitation_noise, quietened
 from mouse_cli.updating.recordings.series import Series
 from mouse_cli.updating.recordings.uncertain import Uncertain
 
 FLOOR = 0.01  # of the rms of a channel: no transducer and no theory is more accurate
-_SEEN = 0.05  # floor of the spectrum of an excitation, by its rms, up to which it is noise and no excitation
-_CREST = 5.0  # peak of a random excitation, by its rms
-_FLAT = 1.2  # level by the floor, that three tenths of its spectrum stay below where the floor is white noise
 HELD = 0.3  # share at the end of each record that is held out where the deck holds nothing out
-_LINES = 32  # spectral lines averaged for the noise floor
-_LOWEST = 1.41  # white noise over the lowest tenth of means of so many
 _RUNG, _SHORTEST = 0.999, 256  # share of the energy of a free decay that is used; its samples, at least
 _FORCES = ("force", "moment")
 _ORDERS = MOTIONS | {"rotation": 0, "angular velocity": 1, "angular acceleration": 2}  # how many times differentiated
@@ -53,15 +50,15 @@ def records(problem: Problem) -> Records:
             f"{len(fitted) - len(alike)} recordings have other channels or another rate than the first and were left out"
         )
     held = ordered(held)
-    floors = {id(one): _floor(one.samples[:, outputs]) for one in [*alike, *held]}
+    floors = {id(one): floor(one.samples[:, outputs]) for one in [*alike, *held]}
     sd = np.max([floors[id(one)] for one in alike], axis=0)
     clear = lambda one: _disturbance(one).cleared_by(one.samples[:, outputs], one.time_step_s, BLOCK)
     sd = np.max([sd, *(FLOOR * clear(one).std(axis=0) for one in alike)], axis=0)
     stated = lambda columns: np.array([first.channels[j].noise_sd for j in columns])
     sd = np.max([sd, *(stated(outputs) * clear(one).std(axis=0) for one in alike)], axis=0)
-    quiet = np.max([_excitation_noise(ground.accelerations(one, inputs), stated(inputs)) for one in alike], axis=0)
+    quiet = np.max([excitation_noise(ground.accelerations(one, inputs), stated(inputs)) for one in alike], axis=0)
     make = lambda one: replace(
-        _series(problem, _quietened(one, inputs, quiet), inputs, outputs, sd), floor=floors[id(one)], force_noise=quiet
+        _series(problem, quietened(one, inputs, quiet), inputs, outputs, sd), floor=floors[id(one)], force_noise=quiet
     )
     said += [_left_out(one, outputs) for one in alike[:1] if _disturbance(one)]
     if any(first.channels[j].ground for j in inputs):
@@ -205,58 +202,6 @@ def _weights(channel: Channel, n: int) -> np.ndarray:
     for dof, share in channel.weights.items():
         found[dof] = share
     return found
-
-
-def _excitation_noise(force: np.ndarray, stated: np.ndarray) -> np.ndarray:
-    """sd (i,) of the noise of excitations (t, i): a stated share of their rms, or the floor of their spectra where that is flat,
-    and low beside them. Excitations as wide as the samples allow, or that fall off slowly, show no noise: the floor is their own.
-    """
-    rms, groups = force.std(axis=0), _levels(force)
-    floor, more = _floor(force), np.sqrt(np.quantile(groups, 0.3, axis=0))
-    peak = np.abs(force - np.median(force, axis=0)).max(axis=0)
-    loud = np.maximum(rms, peak / _CREST)  # strokes are short, and their rms is no measure of them
-    seen = (floor < _SEEN * loud) & (more < _FLAT * floor)
-    return np.where(stated > 0, stated * rms, np.where(seen, floor, 0.0))
-
-
-def _quietened(record: Recording, inputs: list[int], sd: np.ndarray) -> Recording:
-    """The record with its excitations as they most probably were, beside noise of so much sd (i,): their lines times the share of
-    their power that is not noise (N. Wiener 1949).
-
-    Where there is nothing but noise, a simulation would repeat it at the resonances there, and damping would be found too large.
-    """
-    samples = record.samples.copy()
-    for j, noise in zip(inputs, sd, strict=True):
-        channel = record.channels[j]
-        if noise and (not channel.ground or channel.quantity == "acceleration"):
-            x = samples[:, j] - samples[:, j].mean()
-            share = np.maximum(1 - noise**2 / _levels(x[:, None])[:, 0], 0.0)
-            share = np.max(
-                [share, np.append(share[1:], 0.0), np.append(0.0, share[:-1])], axis=0
-            )  # edges of bands are whole
-            lines = np.arange(len(x) // 2 + 1)
-            share = share[np.clip((lines - 1) // _LINES, 0, len(share) - 1)]
-            samples[:, j] += np.fft.irfft(share * np.fft.rfft(x), len(x)) - x
-    return replace(record, samples=samples)
-
-
-def _floor(samples: np.ndarray) -> np.ndarray:
-    """Noise of channels (t, s): the floor of their spectra, where the structure is quiet.
-
-    The lowest tenth of means of neighbouring lines, times what it falls short of the level of white noise on average.
-    """
-    return np.sqrt(np.quantile(_levels(samples), 0.1, axis=0) * _LOWEST)
-
-
-def _levels(samples: np.ndarray) -> np.ndarray:
-    """Variance (g, s) that white noise of the level of each _LINES neighbouring lines of channels (t, s) would have."""
-    t = len(samples)
-    window = np.hanning(t + 2)[1:-1, None]
-    power = np.abs(np.fft.rfft((samples - samples.mean(axis=0)) * window, axis=0)) ** 2 / (window**2).sum()
-    power = power[1:] if len(power) > 1 else power
-    lines = min(_LINES, len(power))  # a few samples have fewer
-    groups = len(power) // lines
-    return power[: groups * lines].reshape(groups, lines, power.shape[1]).mean(axis=1)
 
 
 def steps(series: Series, highest_hz: float, top_hz: float) -> Series:

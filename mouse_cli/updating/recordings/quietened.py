@@ -1,0 +1,81 @@
+"""Measured excitations and their noise: as they most probably were."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from mouse_cli.model.recording import Recording
+from mouse_cli.updating.recordings.floors import LINES, levels, lowest
+
+_SEEN = 0.05  # floor of the spectrum of an excitation, by its rms, up to which it is noise and no excitation
+_CREST = 5.0  # peak of a random excitation, by its rms
+_FLAT = 1.2  # level by the floor, that three tenths of its spectrum stay below where the floor is white noise
+_ENDS, _QUIET = 4, 0.02  # samples at an end of an excitation, and share of its peak up to which it does not act there
+_TO_SD = 1.4826  # times the median of the size of Gaussian noise
+_STRUCK, _BESIDE, _WHITE = 5.0, 4, 0.3  # sd from which on a stroke acts; samples on either side of it; correlation of noise at most
+
+
+def excitation_noise(force: np.ndarray, stated: np.ndarray) -> np.ndarray:
+    """sd (i,) of the noise of excitations (t, i): a stated share of their rms, or the floor of their spectra where that is flat,
+    and low beside them. Excitations as wide as the samples allow, or that fall off slowly, show no noise: the floor is their own.
+    Strokes have none, as simulations have them without what is read between them.
+    """
+    groups = levels(force, _whole(force))
+    floor, more = lowest(groups), np.sqrt(np.quantile(groups, 0.3, axis=0))
+    seen = (floor < _SEEN * np.array([_loud(x) for x in force.T])) & (more < _FLAT * floor)
+    struck = np.array([strokes(x) is not None for x in force.T])
+    return np.where(struck, 0.0, np.where(stated > 0, stated * force.std(axis=0), np.where(seen, floor, 0.0)))
+
+
+def _loud(x: np.ndarray) -> float:
+    """rms of an excitation (t,); strokes are short, and their rms is no measure of them."""
+    return max(float(x.std()), float(np.abs(x - np.median(x)).max()) / _CREST)
+
+
+def quietened(record: Recording, inputs: list[int], sd: np.ndarray) -> Recording:
+    """The record with its excitations as they most probably were, beside noise of so much sd (i,): strokes alone, their lines times
+    the share of their power that is not noise (N. Wiener 1949) otherwise.
+
+    Where there is nothing but noise, a simulation would repeat it at the resonances there, and damping would be found too large.
+    """
+    samples = record.samples.copy()
+    for j, noise in zip(inputs, sd, strict=True):
+        channel, x = record.channels[j], samples[:, j] - samples[:, j].mean()
+        if channel.ground and channel.quantity != "acceleration":
+            continue
+        if (acts := strokes(x)) is not None:
+            samples[~acts, j] = np.median(samples[~acts, j])
+        elif noise:
+            share = np.maximum(1 - noise**2 / levels(x[:, None], _whole(x[:, None]))[:, 0], 0.0)
+            share = np.max(
+                [share, np.append(share[1:], 0.0), np.append(0.0, share[:-1])], axis=0
+            )  # edges of bands are whole
+            lines = np.arange(len(x) // 2 + 1)
+            share = share[np.clip((lines - 1) // LINES, 0, len(share) - 1)]
+            samples[:, j] += np.fft.irfft(share * np.fft.rfft(x), len(x)) - x
+    return replace(record, samples=samples)
+
+
+def strokes(x: np.ndarray) -> np.ndarray | None:
+    """Mask (t,) of when an excitation acts that is little and white noise most of the time; None: it is another one."""
+    away = np.abs(x - np.median(x))
+    sd = _TO_SD * np.median(away)
+    if not 0 < sd < _SEEN * _loud(x):
+        return None
+    acts = np.convolve(away > _STRUCK * sd, np.ones(2 * _BESIDE + 1), "same") > 0
+    quiet = x[~acts] - np.median(x)
+    white = len(quiet) > len(x) / 2 and abs(quiet[1:] @ quiet[:-1]) < _WHITE * (quiet @ quiet)
+    return acts if white else None
+
+
+def _whole(force: np.ndarray) -> np.ndarray:
+    """A window (t, i) for excitations that falls to 0 only towards ends at which they still act: a stroke at the beginning of a
+    record is all of it.
+    """
+    t = len(force)
+    away = np.abs(force - np.median(force, axis=0))
+    acts = [away[own].max(axis=0) > _QUIET * away.max(axis=0) for own in (slice(None, _ENDS), slice(-_ENDS, None))]
+    rise = 0.5 - 0.5 * np.cos(np.pi * (np.arange(t) + 1) / (t + 1))
+    one, both = np.ones(t), np.hanning(t + 2)[1:-1]
+    shapes = {(False, False): one, (True, False): rise, (False, True): rise[::-1], (True, True): both}
+    return np.column_stack([shapes[bool(first), bool(last)] for first, last in zip(*acts, strict=True)])
