@@ -22,8 +22,8 @@ class LevelSign:
 @dataclass(frozen=True)
 class Linearity:
     """Signs of nonlinearity, none of which decides. incoherent: share of the band with coherence below 0.95, nan for several
-    forces; even, odd: distortion at lines that were not excited, by the excited ones, nan without such an excitation; noise
-    likewise. levels: the lowest and the highest third.
+    forces and for strokes; even, odd: distortion at lines that were not excited, by the excited ones, nan without such an
+    excitation; noise likewise. levels: the lowest and the highest third.
     """
 
     incoherent: float = float("nan")

@@ -410,6 +410,11 @@ def test_two_laws_of_one_group_at_one_place_are_one(weighed_laws):
     beside = lambda key, place: Start(first.placed(place).at(registry()[key], 0), np.zeros(0), 0.0)
     assert doubled(beside("coulomb", here)) and doubled(beside("friction", here))
     assert not doubled(beside("friction", there)) and not doubled(beside("spring", here))
+    spring = lambda first, variant, place: Start(first.placed(place).at(registry()["spring"], variant), np.zeros(0), 0.0)
+    for key, amounts in (("yielding", 0), ("friction", 1)):  # a part that yields and as much of a spring beside it is friction
+        first = weighed_laws[0].hypothesis.placed(here).at(registry()[key], 0)
+        assert [doubled(spring(first, i, here)) for i in (0, 1)] == [i == amounts for i in (0, 1)]
+        assert not doubled(spring(first, amounts, there))
     first = weighed_laws[0].hypothesis.placed(here).at(registry()["cubic"], 0)  # the odd term of a series
     assert doubled(beside("cubic", here)) and not doubled(beside("quadratic", here))
 

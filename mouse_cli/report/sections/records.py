@@ -189,7 +189,7 @@ def linearity(found: RecordDiagnosis, options: Options) -> Iterator[Block]:
     signs = found.linearity
     if np.isfinite(signs.incoherent):
         yield Text(
-            f"Coherence of force and first output is below 0.95 over {100 * signs.incoherent:.2g} % of the excited band."
+            f"Coherence of force and first output is below 0.95 over {100 * signs.incoherent:.0f} % of the excited band."
         )
     if np.isfinite(signs.even) or np.isfinite(signs.odd):
         yield Text(_distortion(signs))

@@ -69,7 +69,8 @@ class Law:
     costs more than a step. at: `anywhere`, `ground` where it acts only between a point and the ground, `link` where the model has a
     spring, `plane` between two directions of one body, or `body` along all that it translates by. limit: index of the unknown that
     a record must show, and the group of what the law is where it does not. motions: how many it couples, the first rows of
-    `matrices`. linked: indices of variants that take from a spring which the model has, and no more than all of it.
+    `matrices`. linked: indices of variants that take from a spring which the model has, and no more than all of it. amounts: keys
+    of laws, and variants, that at its place make another law of it, which stands for both.
     """
 
     key: str
@@ -91,6 +92,7 @@ class Law:
     motions: int = 1
     prepare: Callable | None = None
     linked: tuple[int, ...] = ()
+    amounts: tuple[tuple[str, int], ...] = ()
 
     def variants_at(self, scale: Scale) -> list[int]:
         """Indices of the variants that can act in a motion of that scale."""

@@ -19,7 +19,8 @@ def linearity(study: Study, baseline: Fit) -> Linearity:
     if series.force.shape[1] != 1:
         return Linearity(levels=levels)
     force, response = series.force[:, 0], series.measured[:, 0]
-    share, length = incoherent(force, response, series.dt), period(force)
+    struck = not np.median(np.abs(force - np.median(force)))  # blocks between strokes have no force to be coherent with
+    share, length = np.nan if struck else incoherent(force, response, series.dt), period(force)
     found = None if length is None else distortion(force, response, length)
     if found is None:
         return Linearity(share, levels=levels)
