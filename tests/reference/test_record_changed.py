@@ -1,6 +1,7 @@
 """A structure that changes, or drifts, while it is recorded: linear before and after, all integrated by scipy."""
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ from two_masses import DECK, K, record
 
 from mouse_cli.cli.main import cli
 from mouse_cli.formats import read_deck
-from mouse_cli.updating.recordings.changed import changed
+from mouse_cli.updating.recordings.changed import broken, changed
 from mouse_cli.updating.recordings.drift import drift
 from mouse_cli.updating.recordings.records import records
 from mouse_cli.updating.recordings.study import study
@@ -32,17 +33,19 @@ def drifting(folder, share: float, louder: float = 1.0) -> str:
 
 
 def recorded(folder, kept, level) -> str:
-    """kept(t): parts of the time, with the share of its stiffness that the spring has in each; level(t): of the force."""
+    """kept(t): parts of the time, with the share of its stiffness that the spring has in each, and of its mass that the second mass
+    has; level(t): of the force.
+    """
     rng, t = np.random.default_rng(3), np.arange(int(SECONDS * RATE * FINER)) / (RATE * FINER)
     hz = np.fft.rfftfreq(len(t), t[1])
     f = np.fft.irfft(np.where((hz > 2) & (hz < 60), np.exp(2j * np.pi * rng.uniform(size=len(hz))), 0), len(t))
     f *= 40 / f.std() * level(t) * np.minimum(t / 0.2, 1)
     begun, motion = np.zeros(4), []
-    for own, share in kept(t):
-        k = 3e4 * share
+    for own, share, *mass in kept(t):
+        k, per = 3e4 * share, np.diag([1.0, 1 / (mass or [1.0])[0]])
         stiff = 1.01 * np.array([[2e4 + k, -k], [-k, k]])
-        A = np.block([[np.zeros((2, 2)), np.eye(2)], [-stiff, -1.2e-4 * K]])
-        B = np.array([[0.0], [0.0], [0.0], [1.0]])
+        A = np.block([[np.zeros((2, 2)), np.eye(2)], [-per @ stiff, -1.2e-4 * per @ K]])
+        B = np.concatenate([np.zeros((2, 1)), per[:, 1:]])
         _, a, x = lsim((A, B, A[2:], B[2:]), f[own], t[own] - t[own][0], begun)
         begun = x[-1]
         motion.append(a)
@@ -70,6 +73,31 @@ def test_a_loss_of_a_fifth_is_surely_one(tmp_path):
     """It is 4 prior sd of a spring that is 5 % sure, and hundreds of those by which either part knows it."""
     problem = read_deck(loosened(tmp_path, 0.8, 6.1))
     assert changed(study(problem, records(problem))).moved[0] == ("k2", pytest.approx(-4.0, abs=0.4))
+
+
+@pytest.mark.parametrize(("whole", "side"), [((1.0, 0.8), "Up to"), ((0.8, 1.0), "From")])
+def test_a_part_that_falls_off_or_is_put_on_is_told_by_when(tmp_path, whole, side):
+    """Of mass the deck has no parameter: it was a force that nobody measured, which the reader was told to stop."""
+    parts = lambda t: [(t < 6.1, 1.0, whole[0]), (t >= 6.1, 1.0, whole[1])]
+    problem = read_deck(recorded(tmp_path, parts, lambda t: 1.0))
+    own = study(problem, records(problem))
+    assert changed(own) is None and broken(own).startswith(f"{side} sample ")
+    sample = int(re.search(r"sample (\d+)", broken(own))[1])
+    assert abs(sample - 6.1 * RATE) < RATE
+
+
+@pytest.mark.parametrize(
+    "deck",
+    [
+        lambda folder: loosened(folder, 1.0, 6.1),
+        lambda folder: loosened(folder, 0.6, 6.1, louder=3.0),
+        lambda folder: record(folder, lambda u, v: 2e9 * (u[1] - u[0]) ** 3 * np.array([-1.0, 1.0])),
+    ],
+    ids=["sound", "louder", "cubic"],
+)
+def test_nothing_broke_where_all_is_the_same_or_the_level_is_not(tmp_path, deck):
+    problem = read_deck(deck(tmp_path))
+    assert broken(study(problem, records(problem))) == ""
 
 
 @pytest.mark.parametrize(

@@ -49,11 +49,43 @@ class Changed:
 
 
 def changed(own: Study) -> Changed | None:
-    """When the structure changed; None where it did not, or once and for all cannot be said. Decays lose their level with time."""
+    """When the structure changed; None where it did not, or once and for all cannot be said."""
+    every = _stretches(own)
+    return (every and (_once(own, every, range(len(every))) or _once(own, every, range(len(every))[::-1]))) or None
+
+
+def broken(own: Study) -> str:
+    """What to do where the linear model explains all that was recorded before some moment, or after it, and nothing on the other
+    side, at the same level; empty: it does not. A part of which no parameter tells may have fallen off.
+    """
+    every = _stretches(own)
+    for order in (range(len(every)), range(len(every))[::-1]) if every else ():
+        first = _explained(own, [every[k] for k in order[: len(every) // 3]])
+        if first is None:
+            continue
+        alike = _within(own, first)[list(order)]
+        count = int(np.argmin(alike)) if not alike.all() else len(alike)
+        sound, rest = order[:count], order[count:]
+        if len(rest) >= _DURING and not alike[count:].any() and not _louder(own, sound, rest):
+            return _breaking(own, every, sound, rest)
+    return ""
+
+
+def _breaking(own: Study, every, sound: Sequence[int], rest: Sequence[int]) -> str:
+    before = min(sound) < min(rest)
+    title, sample = _at(own, *every[(max if before else min)(sound)], end=before)
+    part = f"Up to sample {sample} of '{title}'" if before else f"From sample {sample} of '{title}' on"
+    return (
+        f"{part} the linear model explains the records, and neither it nor any law explains what was recorded "
+        f"{'after' if before else 'before'} that, at the same level: something changed then (a part fell off, a joint or a support "
+        "came loose). Diagnose each part alone (segment, or hold_out)."
+    )
+
+
+def _stretches(own: Study) -> list[tuple[int, int]]:
+    """Series and number of each stretch, in time; none where they are too few. Decays lose their level with time."""
     every = [(i, g) for i, part in enumerate(own.data) for g in range(len(part.starts))]
-    if len(every) < _FEWEST or own.look.free:
-        return None
-    return _once(own, every, range(len(every))) or _once(own, every, range(len(every))[::-1])
+    return [] if len(every) < _FEWEST or own.look.free else every
 
 
 def _once(own: Study, every: list[tuple[int, int]], order: Sequence[int]) -> Changed | None:

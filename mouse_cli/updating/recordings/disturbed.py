@@ -17,6 +17,7 @@ from mouse_cli.updating.recordings.study import Study, fitted, resonances
 _MAINS = (50.0, 60.0, 50.0 / 3)  # Hz: the grids, and railways of central Europe
 _SLOW = 0.25  # of the lowest mode, below which a structure follows its force without a resonance
 _SHARE = 0.1  # of what is left, that lines of hum or drift are thought of for
+_UNEVEN = 100.0  # ratio of the variances that are left of stretches, above which what leaves them is not there all the time
 _BESIDE = 1.5  # lines of a stretch on either side of one of the mains
 
 
@@ -38,8 +39,9 @@ def unmeasured(own: Study, baseline: Fit) -> str:
     """What to do about what the model leaves, where it is too much for noise of a record and yet has all that noise has; empty: it
     has not.
     """
+    left = (baseline.residual**2).mean(axis=(0, 1))
     found = noise(own.spectrum, baseline.hypothesis, own.places, baseline.x, loud=np.inf)
-    if found is None:
+    if found is None or left.max() > _UNEVEN * left.min():
         return ""
     share = 100 * found.size / own.spectrum.series.measured.std(axis=0)
     grows = "" if found.grows != found.grows else "does not grow with the motion, "

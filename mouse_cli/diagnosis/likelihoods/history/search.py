@@ -23,7 +23,7 @@ from mouse_cli.terms.laws import registry as laws
 from mouse_cli.updating.recordings.acting import Place
 from mouse_cli.updating.recordings.adequacy import adequate, innovation, missing, strained, unlikely, with_noise
 from mouse_cli.updating.recordings.at_odds import odd
-from mouse_cli.updating.recordings.changed import changed
+from mouse_cli.updating.recordings.changed import broken, changed
 from mouse_cli.updating.recordings.channels import Misreading, misreadings
 from mouse_cli.updating.recordings.disturbed import disturbed, unmeasured
 from mouse_cli.updating.recordings.drift import drift
@@ -104,7 +104,7 @@ def weighed(study: Study, notice: Notice, known: list[Law] | None = None, causes
         found = undamped(study, found + shown(study, _pairs(study, notice, known, found), dropped), dropped)
         best = min(found, key=innovation)
         quiet = None if adequate(best) else _left(study, best)
-    said = unmeasured(study, baseline) if innovation(best) > _TAKEN * innovation(baseline) else ""
+    said = broken(study) or unmeasured(study, baseline) if innovation(best) > _TAKEN * innovation(baseline) else ""
     return Weighed(baseline, found, quiet, None if quiet is None else best, tuple(dropped.items()), said)
 
 
