@@ -147,8 +147,9 @@ def _refuse(where: Span, message: str, help: str) -> None:
 
 def _picks(contents: Contents, choice: Choice, sensors: Sensors, where: Span) -> tuple[list[Pick], list[str]]:
     """The channels that are sensors, forces first, and the names of those that are none."""
-    said = [(INPUT, text) for text in choice.forces] + [(OUTPUT, text) for text in choice.responses]
     names = _names(contents)
+    here = [text for text in choice.forces if _at(contents, names, text.rpartition("=")[2])]  # a hammer goes from place to place
+    said = [(INPUT, text) for text in here or choice.forces] + [(OUTPUT, text) for text in choice.responses]
     picks = [_named(contents, names, role, text, choice, sensors, where) for role, text in said]
     used, unused = {pick.channel for pick in picks}, []
     for name, column in zip(names, contents.columns, strict=True):
@@ -191,8 +192,7 @@ def _named(
     """A channel that the command line names, `CHANNEL` or `SENSOR=CHANNEL`."""
     sensor, stroke, name = text.partition("=")
     name = name if stroke else text
-    at = [i for i, each in enumerate(contents.columns) if each.name.lower() == name.lower()]
-    at = at or ([int(name) - 1] if name.isdecimal() and 1 <= int(name) <= len(names) else [])
+    at = _at(contents, names, name)
     if len(at) != 1:
         listed, count = ", ".join(each.name for each in contents.columns[:8]), "several" if at else "no"
         message = f"the file has {count} channels '{name}'; it has {listed}"
@@ -203,6 +203,12 @@ def _named(
         option = "--force" if role == INPUT else "--response"
         _refuse(where, f"no sensor is given for channel '{name}' is", f"say so: {option} SENSOR={name}")
     return _pick(role, own, column, names[at[0]], choice, where)
+
+
+def _at(contents: Contents, names: list[str], name: str) -> list[int]:
+    """Columns that bear a name, or the one of that number, from 1."""
+    at = [i for i, each in enumerate(contents.columns) if each.name.lower() == name.lower()]
+    return at or ([int(name) - 1] if name.isdecimal() and 1 <= int(name) <= len(names) else [])
 
 
 def _pick(role: str, sensor: str, column: Column, name: str, choice: Choice, where: Span) -> Pick:

@@ -24,7 +24,9 @@ def noisy(x: np.ndarray, share: float = 0.02) -> np.ndarray:
     return x + share * x.std() * np.random.default_rng(5).standard_normal(len(x))
 
 
-def test_stretches_are_made_white_by_the_covariance_of_what_the_excitation_passes_on():
+@pytest.mark.parametrize("strokes", [None, (3, 17, 18, 40)])
+def test_stretches_are_made_white_by_the_covariance_of_what_the_excitation_passes_on(strokes):
+    """Noise that acts all the time, or at some samples of the second stretch alone."""
     rng, t, s = np.random.default_rng(1), 60, 2
     w, h = 9.0, 0.02
     step = expm(np.array([[0, 1], [-(w**2), -1.0]]) * h)
@@ -36,13 +38,18 @@ def test_stretches_are_made_white_by_the_covariance_of_what_the_excitation_passe
         for k in range(j + 1, t):
             G[:, k, j] = (read @ np.linalg.matrix_power(step, k - j) @ given)[:, 0]
     G = G.reshape(s * t, t)
-    covariance = G @ G.T + np.diag(np.repeat(own, t))
+    acts = np.ones((t, 1, 4))
+    if strokes:
+        acts[:] = 0.0
+        acts[list(strokes), 0, 1] = 1.5, 1.0, 1.0, 0.5
     x = rng.standard_normal((3, s, t, 4))
-    filter = Repeated(step, given, read, direct, own)
+    filter = Repeated(step, given, read, direct, own).over(t, acts if strokes else None)
     found = filter.whitened(x)
     as_one = lambda y: y.reshape(3, s * t, 4)
-    exact = np.einsum("pag,ab,pbh->pgh", as_one(x), np.linalg.inv(covariance), as_one(x))
-    np.testing.assert_allclose(np.einsum("pag,pah->pgh", as_one(found), as_one(found)), exact, rtol=1e-9, atol=1e-9)
+    for g, passed in enumerate(np.moveaxis(acts[:, 0], 1, 0)):
+        covariance = G * passed**2 @ G.T + np.diag(np.repeat(own, t))
+        exact = as_one(x)[:, :, g] @ np.linalg.inv(covariance) @ as_one(x)[:, :, g].T
+        np.testing.assert_allclose(as_one(found)[:, :, g] @ as_one(found)[:, :, g].T, exact, rtol=1e-9, atol=1e-9)
     assert np.abs(filter.coloured(found) - x).max() < 1e-9
     assert np.abs(filter.whitened(x[:, :, :20]) - found[:, :, :20]).max() < 1e-12  # of what follows nothing is known
 

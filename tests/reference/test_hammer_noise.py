@@ -33,7 +33,7 @@ def test_noise_between_strokes_is_not_simulated_however_few_they_are(strokes):
     noisy = force + NOISE * np.random.default_rng(2).standard_normal(len(force))
     sd = excitation_noise(noisy[:, None], np.zeros(1))
     left = quietened(read(noisy), [0], sd).samples[:, 0] - force
-    assert sd == 0 and np.abs(left).max() < 5 * NOISE
+    assert sd == pytest.approx(NOISE, rel=0.05) and np.abs(left).max() < 5 * NOISE
     assert (np.abs(left) < 0.1 * NOISE).mean() > 0.97
 
 

@@ -244,7 +244,8 @@ class Polish:
         evidence += gained(self.simulator, at.x, at.states, self.spread, precisions)
         misfit = float((at.left**2).sum())
         dof = passed() * at.left.size - len(at.x) - at.states.size - self._lost(*at.left.shape)
-        covariance, as_read = np.linalg.inv(H), self.series.repeated.coloured(at.left)
+        noise, covariance = self.simulator.noise, np.linalg.inv(H)
+        as_read = at.left if noise is None else noise.coloured(at.left)
         return Fit(self.h, at.x, at.states, covariance, misfit, dof, at.cost, float(evidence), as_read)
 
 

@@ -18,13 +18,22 @@ _STRUCK, _BESIDE, _WHITE = 5.0, 4, 0.3  # sd from which on a stroke acts; sample
 def excitation_noise(force: np.ndarray, stated: np.ndarray) -> np.ndarray:
     """sd (i,) of the noise of excitations (t, i): a stated share of their rms, or the floor of their spectra where that is flat,
     and low beside them. Excitations as wide as the samples allow, or that fall off slowly, show no noise: the floor is their own.
-    Strokes have none, as simulations have them without what is read between them.
+    That of strokes is what is read between them: simulations have them without it, but for as long as they act.
     """
     groups = levels(force, _whole(force))
     floor, more = lowest(groups), np.sqrt(np.quantile(groups, 0.3, axis=0))
     seen = (floor < _SEEN * np.array([_loud(x) for x in force.T])) & (more < _FLAT * floor)
-    struck = np.array([strokes(x) is not None for x in force.T])
-    return np.where(struck, 0.0, np.where(stated > 0, stated * force.std(axis=0), np.where(seen, floor, 0.0)))
+    between = np.array([0.0 if (acts := strokes(x)) is None else x[~acts].std() for x in force.T])
+    found = np.where(between > 0, between, np.where(seen, floor, 0.0))
+    return np.where(stated > 0, stated * force.std(axis=0), found)
+
+
+def acting(force: np.ndarray) -> np.ndarray | None:
+    """When the noise of excitations (t, i) acts in simulations: of strokes as long as they do; None: there are none."""
+    each = [strokes(x) if x.any() else np.zeros(len(x), dtype=bool) for x in force.T]
+    if all(own is None for own in each):
+        return None
+    return np.column_stack([np.ones(len(force), dtype=bool) if own is None else own for own in each])
 
 
 def _loud(x: np.ndarray) -> float:
@@ -45,7 +54,7 @@ def quietened(record: Recording, inputs: list[int], sd: np.ndarray) -> Recording
             continue
         if (acts := strokes(x)) is not None:
             samples[~acts, j] = np.median(samples[~acts, j])
-        elif noise:
+        elif noise and x.any():
             share = np.maximum(1 - noise**2 / levels(x[:, None], _whole(x[:, None]))[:, 0], 0.0)
             share = np.max(
                 [share, np.append(share[1:], 0.0), np.append(0.0, share[:-1])], axis=0

@@ -8,16 +8,17 @@ from mouse_cli._errors import ERROR, WARNING, DeckError, Diagnostic
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.recording import MOTIONS, Channel, Recording
 from mouse_cli.updating.recordings import ground
+from mouse_cli.updating.recordings.clipped import unclipped
 from mouse_cli.updating.recordings.disturbance import BLOCK, Disturbance
 from mouse_cli.updating.recordings.floors import floor
-from mouse_cli.updating.recordings.quietened import excitation_noise, quietened
+from mouse_cli.updating.recordings.quietened import acting, excitation_noise, quietened
+from mouse_cli.updating.recordings.roving import FORCES, measures, with_all_forces
 from mouse_cli.updating.recordings.series import Series
 from mouse_cli.updating.recordings.uncertain import Uncertain
 
 FLOOR = 0.01  # of the rms of a channel: no transducer and no theory is more accurate
 HELD = 0.3  # share at the end of each record that is held out where the deck holds nothing out
 _RUNG, _SHORTEST = 0.999, 256  # share of the energy of a free decay that is used; its samples, at least
-_FORCES = ("force", "moment")
 _ORDERS = MOTIONS | {"rotation": 0, "angular velocity": 1, "angular acceleration": 2}  # how many times differentiated
 _MOVING = (
     "the ground moves: motions are simulated relative to it, and absolute channels compared less its measured motion"
@@ -38,18 +39,21 @@ class Records:
 
 def records(problem: Problem) -> Records:
     """All of a deck. Raises DeckError (MD640) where a record has no force or no motion that the model has."""
+    problem = with_all_forces(problem)
     fitted = list(problem.recordings)
     held = list(problem.held_records.recordings) if problem.held_records else []
     said: list[str] = []
     first = fitted[0] if fitted else held[0]
     inputs, outputs = _channels(problem, first)
-    ordered = lambda every: [_rung(own, outputs) for one in every if (own := in_order(one, first)) is not None]
+    ordered = lambda every: [own for one in every if (own := in_order(one, first)) is not None]
     alike = ordered(fitted)
     if len(alike) < len(fitted):
         said.append(
             f"{len(fitted) - len(alike)} recordings have other channels or another rate than the first and were left out"
         )
-    held = ordered(held)
+    alike, held, outputs, clipped = unclipped(alike, ordered(held), outputs)
+    said += clipped
+    alike, held = ([_rung(one, outputs) for one in every] for every in (alike, held))
     floors = {id(one): floor(one.samples[:, outputs]) for one in [*alike, *held]}
     sd = np.max([floors[id(one)] for one in alike], axis=0)
     clear = lambda one: _disturbance(one).cleared_by(one.samples[:, outputs], one.time_step_s, BLOCK)
@@ -58,7 +62,10 @@ def records(problem: Problem) -> Records:
     sd = np.max([sd, *(stated(outputs) * clear(one).std(axis=0) for one in alike)], axis=0)
     quiet = np.max([excitation_noise(ground.accelerations(one, inputs), stated(inputs)) for one in alike], axis=0)
     make = lambda one: replace(
-        _series(problem, quietened(one, inputs, quiet), inputs, outputs, sd), floor=floors[id(one)], force_noise=quiet
+        _series(problem, quietened(one, inputs, quiet), inputs, outputs, sd),
+        floor=floors[id(one)],
+        force_noise=quiet,
+        acts=acting(ground.accelerations(one, inputs)),
     )
     said += [_left_out(one, outputs) for one in alike[:1] if _disturbance(one)]
     if any(first.channels[j].ground for j in inputs):
@@ -102,7 +109,7 @@ def named(found: Records) -> dict[str, object]:
 def _channels(problem: Problem, record: Recording) -> tuple[list[int], list[int]]:
     """Columns of forces, or motions of the ground, and of motions on degrees of freedom of the model."""
     own = lambda j: bool(record.channels[j].weights)
-    forced = lambda channel: channel.quantity in _FORCES or channel.ground
+    forced = lambda channel: channel.quantity in FORCES or channel.ground
     inputs = [int(j) for j in record.inputs if forced(record.channels[j]) and own(j)]
     outputs = [int(j) for j in record.outputs if record.channels[j].quantity in _ORDERS and own(j)]
     _prescribed(problem, record)
@@ -141,8 +148,8 @@ def in_order(one: Recording, first: Recording) -> Recording | None:
     """A recording with its channels in the order of those of `first`, whatever files call them; None where they or rates differ."""
     if abs(one.time_step_s / first.time_step_s - 1) >= 1e-6 or one.free != first.free:
         return None
-    own, order = list(map(_measures, one.channels)), []
-    for each in map(_measures, first.channels):
+    own, order = list(map(measures, one.channels)), []
+    for each in map(measures, first.channels):
         j = next((j for j, other in enumerate(own) if other == each and j not in order), None)
         if j is None:
             return None
@@ -150,11 +157,6 @@ def in_order(one: Recording, first: Recording) -> Recording | None:
     if len(order) < len(own):
         return None
     return replace(one, channels=tuple(one.channels[j] for j in order), samples=one.samples[:, order])
-
-
-def _measures(c: Channel) -> tuple:
-    """What a channel measures and how well, whatever it is called."""
-    return c.role, c.quantity, c.weights, c.ground, c.frame, c.gain_sd, c.delay_sd, c.noise_sd
 
 
 def _series(problem: Problem, record: Recording, inputs: list[int], outputs: list[int], sd: np.ndarray) -> Series:

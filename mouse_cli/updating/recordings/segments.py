@@ -46,6 +46,18 @@ class Segments:
         return np.concatenate([own, np.ones((len(own), 1, own.shape[2]))], axis=1)
 
     @property
+    def acts(self) -> np.ndarray | None:
+        """By how much the noise of each excitation acts (t, i, G), that before what is compared at its first sample; None: all the
+        time.
+        """
+        own = self.series.acts
+        if own is None:
+            return None
+        found = np.stack([own[s : s + self.length].astype(float) for s in self.starts], axis=2)
+        found[0] = np.sqrt(np.stack([own[s - REACH : s + 1].sum(axis=0) for s in self.starts], axis=1))
+        return found
+
+    @property
     def measured(self) -> np.ndarray:
         """Filtered channels over their sd."""
         whole = self.series.filtered / self.series.sd

@@ -21,7 +21,8 @@ class Series:
     inputs (n, i), sensing (s, n): how they meet the model; order (s,): 0 displacement, 1 velocity, 2 acceleration. base (n, i): how
     the ground carries it along, where `force` is its acceleration; motions are then relative to it, and `inputs` 0; carried (s, i):
     how much of `force` was taken off outputs for that. floor (s,): of the noise, as the spectrum shows it, where sd is more;
-    force_noise (i,): sd of that of the columns of `force`, and what simulations make of it, `repeated`.
+    force_noise (i,): sd of that of the columns of `force`, and what simulations make of it, `repeated`; acts
+    (t, i): when it acts, None: all the time.
     free: whether the initial state alone moves it. disturbance: of the outputs, which no fit sees.
     slow: samples over which motions are free in a fit that no force makes, of a structure that nothing holds; 0 where all die away.
     """
@@ -41,6 +42,7 @@ class Series:
     floor: np.ndarray | None = None
     force_noise: np.ndarray | None = None
     repeated: Repeated = SILENT
+    acts: np.ndarray | None = None
     slow: int = 0
     free: bool = False
     disturbance: Disturbance = NONE
@@ -51,7 +53,9 @@ class Series:
 
     def part(self, begin: int, end: int) -> "Series":
         """Samples begin to end."""
-        return replace(self, force=self.force[begin:end], measured=self.measured[begin:end], first=self.first + begin)
+        acts = None if self.acts is None else self.acts[begin:end]
+        own = {"force": self.force[begin:end], "measured": self.measured[begin:end], "acts": acts}
+        return replace(self, **own, first=self.first + begin)
 
     def loads(self, M: np.ndarray) -> np.ndarray:
         """What a unit of each column of `force` does to the model with the mass matrix M (..., n, n): P - M J (..., n, i)."""

@@ -34,13 +34,20 @@ class Simulator:
         self.internal: list | None = None
         self.force = np.concatenate([part.force for part in data], axis=2)
         self.read = self._cleared(np.concatenate([part.measured for part in data], axis=2))
-        self.measured = self.series.repeated.whitened(self.read)
+        acts = [part.acts for part in data]
+        heard = None if any(own is None for own in acts) else np.concatenate(acts, axis=2)
+        self.noise = self.series.repeated.over(self.read.shape[1], heard)
+        self.measured = self.whitened(self.read)
 
     @property
     def jumps(self) -> bool:
         """Whether a force jumps with the velocity."""
         laws = (*(one.law for one in self.h.known), *(part.law for part in self.h.parts))
         return any(law.implicit is not None for law in laws)
+
+    def whitened(self, x: np.ndarray) -> np.ndarray:
+        """Outputs (..., s, t, G) behind the innovations filter of the noise of the excitation."""
+        return x if self.noise is None else self.noise.whitened(x)
 
     def _cleared(self, x: np.ndarray) -> np.ndarray:
         """Outputs (..., s, t, G) without hum and drift."""
@@ -84,13 +91,17 @@ class Simulator:
         seen = self.seen(many, begin)
         moved = seen[1:] - seen[0]
         J = np.stack([moved[j] / steps[j] for j in range(k)], -1) if k else np.zeros((*seen[0].shape, 0))
-        by_states = np.stack([*moved[k:]], -1) if local else self._free(x, np.diag(nudge))[:, :, None]
+        by_states = np.stack([*moved[k:]], -1) if local else self._free(x, np.diag(nudge))
         return Slopes(J, np.broadcast_to(by_states / nudge, (*seen[0].shape, n2)))
 
     def _free(self, x: np.ndarray, begin: np.ndarray) -> np.ndarray:
-        """Sensors (s, t, b) without force from states begin (2n, b) of a hypothesis that is linear."""
+        """Sensors (s, t, 1 or G, b) without force from states begin (2n, b) of a hypothesis that is linear."""
         plant, idle = self.h.plant(x[None], self.series), np.zeros((*self.force.shape[:2], begin.shape[1]))
-        return self._read(self._simulated(plant, idle, begin[None], None), self.h.read(x[None], self.series).gain)[0]
+        out = self._simulated(plant, idle, begin[None], None)
+        each = self._as_read(out, self.h.read(x[None], self.series).gain)[0]
+        own = 1 if self.noise is None else self.noise.stretches
+        alike = np.broadcast_to(np.moveaxis(each, -1, 0)[..., None], (each.shape[-1], *each.shape[:-1], own))
+        return np.moveaxis(self.whitened(alike), 0, -1)
 
     def seen(self, many: np.ndarray, begin: np.ndarray) -> np.ndarray:
         """Filtered sensors over their sd (P, s, t, G) at x (P, k) from states begin (P, 2n, G), as their channels read them.
@@ -107,8 +118,11 @@ class Simulator:
         return self._read(out, read.gain, late)
 
     def _read(self, out: np.ndarray, gain: np.ndarray, late: np.ndarray | float = 0.0) -> np.ndarray:
-        found = self._cleared(out / self.series.sd[None, :, None, None]) * gain[:, :, None, None]
-        return self.series.repeated.whitened(found + late)
+        return self.whitened(self._as_read(out, gain) + late)
+
+    def _as_read(self, out: np.ndarray, gain: np.ndarray) -> np.ndarray:
+        """Simulated outputs (P, s, t, G) in their sd, without hum and drift, as channels of a gain (P, s) read them."""
+        return self._cleared(out / self.series.sd[None, :, None, None]) * gain[:, :, None, None]
 
     def _simulated(self, plant: Plant, force: np.ndarray, begin: np.ndarray, local: LocalForces | None) -> np.ndarray:
         """Filtered sensors (P, s, t, G): by lines where all is linear, else step by step."""

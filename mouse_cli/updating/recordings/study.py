@@ -24,6 +24,7 @@ from mouse_cli.updating.recordings.places import places
 from mouse_cli.updating.recordings.polish import followed
 from mouse_cli.updating.recordings.records import Records, reduced, steps
 from mouse_cli.updating.recordings.regression import Regression, Start
+from mouse_cli.updating.recordings.roving import with_all_forces
 from mouse_cli.updating.recordings.segments import Segments, segments
 from mouse_cli.updating.recordings.series import REACH, Series
 from mouse_cli.updating.recordings.uncertain import Uncertain, uncertain
@@ -133,7 +134,7 @@ def study(problem: Problem, found: Records, of: Modelled = uncertain) -> Study:
     base = replace(base, inputs=tuple(one.name for one in found.inputs))
     loudest = max(fitted, key=lambda one: float((one.measured / one.sd).std()))
     look = loudest.part(0, min(len(loudest), _SAMPLES))
-    return Study(problem, found, model, base, look, data, (low, high), length)
+    return Study(with_all_forces(problem), found, model, base, look, data, (low, high), length)
 
 
 def _excited(found: Records, model: Uncertain) -> Records:
@@ -145,7 +146,8 @@ def _excited(found: Records, model: Uncertain) -> Records:
     if not first.force_noise.any():
         return found
     noisy = repeated(first, linear.M, linear.C, linear.K)
-    sd = np.sqrt(first.sd**2 + ((first.order == 2)[:, None] * noisy.direct**2).sum(axis=1))
+    ever = np.ones(len(first.force_noise), dtype=bool) if first.acts is None else first.acts.all(axis=0)
+    sd = np.sqrt(first.sd**2 + ((first.order == 2)[:, None] * noisy.direct[:, ever] ** 2).sum(axis=1))
     noisy = noisy.by(first.sd, sd)
     own = lambda series: tuple(replace(one, sd=sd, repeated=noisy) for one in series)
     return replace(found, fitted=own(found.fitted), held=own(found.held))
