@@ -39,13 +39,13 @@ from mouse_cli.updating.recordings.study import Study, fitted
 from mouse_cli.updating.recordings.tone import tone
 from mouse_cli.updating.refusals import not_simulated
 
-_MORE = 12  # starts that are fitted where none of the first is adequate
-_NEAREST = 3  # laws that are begun again with nuisances at their mean
+_MORE, _NEAREST = 12, 3  # starts that are fitted where none of the first is adequate; laws begun again with nuisances at their mean
 # Of what is missing: error of first looks, where nuisances that leave their prior explain it by first order
 _FIRST_ORDER = 0.02
 _TAKEN = 0.5  # of what may be noise, that a law leaves at most to be more than it
 _SERIES = "smooth-stiffness"  # group of laws that are terms of one power series
 _ABOUT = 1.15  # times the least that a law leaves, up to which another one leaves about as much
+_PARTED = {"friction": "yielding", "yielding": "friction"}  # the same slider, beside a spring of the model or in it
 _ROUNDS, _SECONDS = 3, 4  # laws beside which a second one is sought, and starts of it that are fitted
 
 Notice = Callable[[str], None]
@@ -280,14 +280,16 @@ def _relatives(study: Study, best: Fit, known: list[Law] | None) -> list[Fit]:
         return []
     bare, count = best.hypothesis.without_last, len(best.hypothesis.parts[-1].unknowns)
     nuisances, sizes = best.x[:-count], np.exp(best.x[-count:])
-    begun = [(one, i, sizes) for one in laws().values() if _sibling(one, law) for i in range(len(one.variants))]
+    begun = [(one, i, sizes, nuisances) for one in laws().values() if _sibling(one, law) for i in range(len(one.variants))]
     if law.key == "friction":
         kt, slip = sizes
-        begun.append((laws()["iwan"], 0, np.array([1.3 * slip, 1.3 * kt, 0.6, 1.0])))
+        begun.append((laws()["iwan"], 0, np.array([1.3 * slip, 1.3 * kt, 0.6, 1.0]), nuisances))
+    if law.key in _PARTED:  # whether it is a part of the spring of the model, which follows
+        begun.append((laws()[_PARTED[law.key]], 0, sizes, np.zeros_like(nuisances)))
     found = []
-    for one, variant, p in begun:
+    for one, variant, p, z in begun:
         if known is None or one in known:
-            fit = fitted(study, Start(bare.at(one, variant), np.concatenate([nuisances, np.log(p)]), 0.0))
+            fit = fitted(study, Start(bare.at(one, variant), np.concatenate([z, np.log(p)]), 0.0))
             found += [] if fit is None else [fit]
     return found
 
