@@ -159,6 +159,11 @@ LONG: dict[str, tuple[str, ...]] = {
     "reference/test_extended_mass.py": (
         "test_a_hub[2.0-0.02-False]", "test_a_hub[2.0-0.02-True]", "test_a_mass_without_rotary_inertia_is_a_mass",
     ),
+    "reference/test_hammer_records.py": ("test_a_hammer_that_goes_from_place_to_place_is_read_and_used",),
+    "reference/test_viscoelastic_records.py": (
+        "test_a_damper_behind_a_spring_is_named_and_put_into_the_deck",
+        "test_a_magnet_is_a_negative_spring_and_what_softens_further",
+    ),
     "reference/test_free_decay_diagnosis.py": ("test_a_cubic_spring_is_found_without_a_force",),
     "reference/test_free_decays.py": ("test_errors_are_as_large_as_stated[0.01]", "test_errors_are_as_large_as_stated[0.1]"),
     "reference/test_frf.py": ("test_basis_against_direct_solutions_with_all_kinds_of_damping[True]",),

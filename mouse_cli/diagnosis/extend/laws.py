@@ -50,6 +50,8 @@ def with_linear(problem: Problem, part: Part, p: np.ndarray) -> Problem | None:
     if law == "spring":
         name = f"stiffness {part.law.words[part.variant]} at {at}"
         deck = add_spring(problem, ends, name, p[0], part.words["sign"])
+    elif law == "negative-spring":
+        deck = add_spring(problem, ends, f"negative stiffness at {at}", p[0], -1.0)
     elif law == "dashpot":
         deck = add_dashpot(problem, ends, f"dashpot at {at}", p[0])
     elif law == "mass":

@@ -70,7 +70,8 @@ class Law:
     spring, `plane` between two directions of one body, or `body` along all that it translates by. limit: index of the unknown that
     a record must show, and the group of what the law is where it does not. motions: how many it couples, the first rows of
     `matrices`. linked: indices of variants that take from a spring which the model has, and no more than all of it. amounts: keys
-    of laws, and variants, that at its place make another law of it, which stands for both.
+    of laws, and variants, that at its place make another law of it, which stands for both. massless: whether a coordinate of its
+    own has no mass. solitary: whether it acts beside no other linear law: together they would stand for what none of them is.
     """
 
     key: str
@@ -93,6 +94,8 @@ class Law:
     prepare: Callable | None = None
     linked: tuple[int, ...] = ()
     amounts: tuple[tuple[str, int], ...] = ()
+    massless: bool = False
+    solitary: bool = False
 
     def variants_at(self, scale: Scale) -> list[int]:
         """Indices of the variants that can act in a motion of that scale."""
@@ -119,8 +122,8 @@ class Law:
 
     @property
     def listed(self) -> bool:
-        """Whether a deck states it under `laws`: symmetric matrices do not hold it."""
-        return not self.linear or self.motions > 1
+        """Whether a deck states it under `laws`: symmetric matrices do not hold it, or need a point without mass."""
+        return not self.linear or self.motions > 1 or self.massless
 
     @property
     def parameters(self) -> tuple[Unknown, ...]:

@@ -60,6 +60,12 @@ class Acting:
         """Its motions (n, d)."""
         return _columns(self.B, self.across)
 
+    @cached_property
+    def extra(self) -> int:
+        """Degrees of freedom of a linear law's own."""
+        count = self.directions.shape[1]
+        return len(self.law.on(count, self.p, self.words)[0]) - count if self.law.linear else 0
+
 
 @dataclass(frozen=True)
 class Part:

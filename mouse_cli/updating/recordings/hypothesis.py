@@ -96,7 +96,7 @@ class Hypothesis:
     @property
     def extra(self) -> int:
         """Degrees of freedom of the laws' own."""
-        return sum(part.extra for part in self.parts)
+        return sum(one.extra for one in (*self.known, *self.parts))
 
     def whole(self, many: np.ndarray) -> np.ndarray:
         """All x (P, k), the fixed ones where nothing is fitted."""
@@ -156,7 +156,8 @@ class Hypothesis:
             M, C, K = self._with_matrices(many, M, C, K)
         C = self._damped(x, bare, (M, C, K))
         sensing = np.pad(series.sensing, ((0, 0), (0, a)))
-        own = [np.repeat(part.place.B[None] @ series.base, part.extra, 0) for part in self.parts]
+        each = [(one.B, one.extra) for one in self.known] + [(part.place.B, part.extra) for part in self.parts]
+        own = [np.repeat(B[None] @ series.base, extra, 0) for B, extra in each]
         driven = replace(
             series, inputs=np.pad(series.inputs, ((0, a), (0, 0))), base=np.concatenate([series.base, *own])
         )
@@ -168,23 +169,28 @@ class Hypothesis:
         """M, C, K (P, m + a, m + a) with those of linear laws."""
         a, m = self.extra, matrices[0].shape[1]
         M, C, K = (np.pad(one, ((0, 0), (0, a), (0, a))) for one in matrices)
+        at = m
         for one in (each for each in self.known if each.law.linear):
-            B = np.pad(one.directions, ((0, a), (0, 0)))
+            B = self._rows(one.directions, at, one.extra)
+            at += one.extra
             for whole, own in zip((K, C, M), one.law.on(one.directions.shape[1], one.p, one.words), strict=True):
                 whole += B @ own @ B.T
-        at = m
         for part, values in self.sizes(many):
             if not part.law.linear:
                 continue
-            d = part.place.directions.shape[1]
-            B = np.zeros((m + a, d + part.extra))
-            B[:m, :d] = part.place.directions
-            B[at : at + part.extra, d:] = np.eye(part.extra)
+            B = self._rows(part.place.directions, at, part.extra)
             at += part.extra
             for i, p in enumerate(values.T):
                 for whole, own in zip((K, C, M), part.matrices(p), strict=True):
                     whole[i] += B @ own @ B.T
         return M, C, K
+
+    def _rows(self, directions: np.ndarray, at: int, extra: int) -> np.ndarray:
+        """Motions (m + a, d + extra) of a law: along the structure (m, d), and its own degrees of freedom from `at` on."""
+        m, d = directions.shape
+        B = np.zeros((m + self.extra, d + extra))
+        B[:m, :d], B[at : at + extra, d:] = directions, np.eye(extra)
+        return B
 
     def _damped(self, x: np.ndarray, bare: tuple[np.ndarray, ...], whole: tuple[np.ndarray, ...]) -> np.ndarray:
         """C (P, m + a, m + a) of M, C, K `whole`, at x (P, k): damping by modes is that of the modes with linear laws, which `bare`
@@ -204,6 +210,10 @@ class Hypothesis:
         if not self.extra or len(states) != 2 * n:
             return states
         halves = [[half] for half in (states[:n], states[n:])]
+        for one in self.known:
+            for half in halves:
+                own = np.abs(one.B) @ half[0] if states.ndim == 1 else one.B @ half[0]
+                half.append(np.broadcast_to(own, (one.extra, *states.shape[1:])))
         for part in self.parts:
             for half, size in zip(halves, (part.place.scale.x, part.place.scale.v), strict=True):
                 own = np.asarray(size) if states.ndim == 1 else part.place.B @ half[0]

@@ -47,10 +47,8 @@ def records(problem: Problem) -> Records:
     inputs, outputs = _channels(problem, first)
     ordered = lambda every: [own for one in every if (own := in_order(one, first)) is not None]
     alike = ordered(fitted)
-    if len(alike) < len(fitted):
-        said.append(
-            f"{len(fitted) - len(alike)} recordings have other channels or another rate than the first and were left out"
-        )
+    if lost := len(fitted) - len(alike):
+        said.append(f"{lost} recordings have other channels or another rate than the first and were left out")
     alike, held, outputs, clipped = unclipped(alike, ordered(held), outputs)
     said += clipped
     alike, held = ([_rung(one, outputs) for one in every] for every in (alike, held))
@@ -70,18 +68,23 @@ def records(problem: Problem) -> Records:
     said += [_left_out(one, outputs) for one in alike[:1] if _disturbance(one)]
     if any(first.channels[j].ground for j in inputs):
         said.append(_MOVING)
-    if not held and first.free and len(alike) > 1:
-        alike, held = alike[:-1], alike[-1:]
-        said.append(f"the deck holds no record out: '{held[0].title}', a decay as a whole, was held out from all fits")
-    if held:
-        series, kept = [make(one) for one in alike], [make(one) for one in held]
-    else:
-        whole = [make(one) for one in alike]
+    alike, held = _apart(alike, held, said)
+    series, kept = [make(one) for one in alike], [make(one) for one in held]
+    if not held:
+        whole = series
         series = [one.part(0, int((1 - HELD) * len(one))) for one in whole]
         kept = [replace(one.part(int((1 - HELD) * len(one)), len(one)), title=f"{one.title}, its end") for one in whole]
         said.append(f"the deck holds no record out: the last {100 * HELD:g} % of each was held out from all fits")
     channels = lambda columns: tuple(first.channels[j] for j in columns)
     return Records(tuple(series), tuple(kept), channels(outputs), channels(inputs), tuple(said))
+
+
+def _apart(fitted: list[Recording], held: list[Recording], said: list[str]) -> tuple[list[Recording], list[Recording]]:
+    """What is fitted and what is held out: the last of several decays where nothing is, which is `said`."""
+    if held or len(fitted) < 2 or not fitted[0].free:
+        return fitted, held
+    said.append(f"the deck holds no record out: '{fitted[-1].title}', a decay as a whole, was held out from all fits")
+    return fitted[:-1], fitted[-1:]
 
 
 def _rung(record: Recording, outputs: list[int]) -> Recording:

@@ -221,16 +221,15 @@ def _beside(study: Study, notice: Notice, known: list[Law] | None, first: Fit, o
 
 
 def doubled(start: Start) -> bool:
-    """Whether two of its laws are of one group at one place, one law in two manners, whose shares no record tells; or amount to a
-    third one there, as a spring that yields does to friction where it is added besides.
-
-    Smooth stiffness is a power series there: its terms, the even and the odd ones, add up.
+    """Whether two of its laws are of one group at one place, one law in two manners, whose shares no record tells, but for terms of
+    smooth stiffness, which add up; amount to a third one there; or are linear, one of them such as acts alone.
     """
     parts = start.hypothesis.parts
     laws = [(part.law.key if part.law.group == _SERIES else part.law.group, part.place.where) for part in parts]
     there = {(part.law.key, part.variant, part.place.where) for part in parts}
     amounts = any((*each, part.place.where) in there for part in parts for each in part.law.amounts)
-    return amounts or len({*laws}) < len(laws)
+    alone = any(part.law.solitary for part in parts) and sum(part.law.linear for part in parts) > 1
+    return amounts or alone or len({*laws}) < len(laws)
 
 
 def _other(study: Study, pair: Fit, tried: list[tuple[str, str]]) -> Fit | None:

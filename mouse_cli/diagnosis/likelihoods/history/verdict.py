@@ -155,12 +155,13 @@ def _sure(ranking: Ranking) -> bool:
 def _rest(ranking: Ranking) -> Rest | None:
     """What the leading law leaves where it takes most of the misfit without a rival; None where it may stand for something else.
 
-    Two laws that do not do together, and modes of their own, take much of any force that nobody thought of.
+    Two laws that do not do together, and modes of their own, take much of any force that nobody thought of; a negative spring of
+    whatever gives in series with the structure, as a base that rocks.
     """
     best, (_, *others) = leader(ranking), ranking.groups
     share = _excess(best) / max(_excess(ranking.baseline), 1e-300)
     parts = best.hypothesis.parts
-    if len(parts) > 1 or any(part.extra for part in parts):
+    if len(parts) > 1 or any(part.extra or part.law.solitary for part in parts):
         return None
     if share > 1 - _MOST or _odds(ranking) <= _FAR_OVER or any(p > RIVAL for _, p in others):
         return None
