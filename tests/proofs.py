@@ -159,6 +159,7 @@ LONG: dict[str, tuple[str, ...]] = {
     "reference/test_extended_mass.py": (
         "test_a_hub[2.0-0.02-False]", "test_a_hub[2.0-0.02-True]", "test_a_mass_without_rotary_inertia_is_a_mass",
     ),
+    "reference/test_mass_on_a_slender_part.py": ("test_a_mass_on_a_slender_part_is_named_at_its_node",),
     "reference/test_hammer_records.py": ("test_a_hammer_that_goes_from_place_to_place_is_read_and_used",),
     "reference/test_viscoelastic_records.py": (
         "test_a_damper_behind_a_spring_is_named_and_put_into_the_deck",

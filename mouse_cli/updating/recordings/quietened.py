@@ -20,6 +20,8 @@ def excitation_noise(force: np.ndarray, stated: np.ndarray) -> np.ndarray:
     and low beside them. Excitations as wide as the samples allow, or that fall off slowly, show no noise: the floor is their own.
     That of strokes is what is read between them: simulations have them without it, but for as long as they act.
     """
+    if not force.shape[1]:
+        return np.zeros(0)
     groups = levels(force, _whole(force))
     floor, more = lowest(groups), np.sqrt(np.quantile(groups, 0.3, axis=0))
     seen = (floor < _SEEN * np.array([_loud(x) for x in force.T])) & (more < _FLAT * floor)
