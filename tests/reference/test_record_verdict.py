@@ -218,6 +218,9 @@ def test_a_simulation_that_diverges_is_no_error_of_so_many_times():
     one = RecordScore("r", 1.0, np.ones(1), {AS_IT_IS: np.full(1, 0.05), WITH_CAUSE: np.full(1, np.inf)}, {}, None)
     found = replace(one, free=one.short)
     assert _proof(found) == "'r' from 5 % to divergence over 1 s, from 5 % to divergence over the whole."
+    loud = replace(found, noise=0.3 * found.signal)  # a quiet end of a record, of which a model can explain little
+    assert _proof(loud) == "'r' from 5 % to divergence over 1 s, from 5 % to divergence over the whole; noise alone is 30 %."
+    assert _proof(replace(found, noise=0.09 * found.signal)) == _proof(found)
     rows = [[_error(part, name, 0) for name in (AS_IT_IS, WITH_CAUSE)] for part in (found.short, found.free)]
     assert rows == [["0.05", "diverges"]] * 2
 

@@ -19,6 +19,7 @@ from mouse_cli.report.theory import stated
 from mouse_cli.report.verdict_sentences import remains, sentences
 
 _MOST = 0.5  # of chi2 of the model as it is, that the nearest explanation may leave to say where to look
+_LOUD = 10.0  # % of a held-out record that is noise, from which on that is told
 
 
 def answers(found: RecordDiagnosis, options: Options) -> Iterator[Block]:
@@ -110,12 +111,12 @@ def _proof(one: RecordScore) -> str:
     share = lambda error: 100 * ((error / one.signal) ** 2).mean() ** 0.5
     size = lambda error: f"{share(error):.3g} %" if share(error) < float("inf") else "divergence"
     name = f"'{one.title}'"
+    noise = np.nan if one.noise is None else share(one.noise)
+    loud = f"; noise alone is {noise:.3g} %" if noise > _LOUD else ""
     if WITH_CAUSE not in one.short:
-        return (
-            f"{name} {size(one.short[AS_IT_IS])} over {one.horizon_s:.2g} s, {size(one.free[AS_IT_IS])} over the whole."
-        )
+        return f"{name} {size(one.short[AS_IT_IS])} over {one.horizon_s:.2g} s, {size(one.free[AS_IT_IS])} over the whole{loud}."
     pair = lambda errors: f"from {size(errors[AS_IT_IS])} to {size(errors[WITH_CAUSE])}"
-    return f"{name} {pair(one.short)} over {one.horizon_s:.2g} s, {pair(one.free)} over the whole."
+    return f"{name} {pair(one.short)} over {one.horizon_s:.2g} s, {pair(one.free)} over the whole{loud}."
 
 
 def update(found: RecordUpdate, options: Options) -> Iterator[Block]:
