@@ -76,7 +76,7 @@ def _breaking(own: Study, every, sound: Sequence[int], rest: Sequence[int]) -> s
     title, sample = _at(own, *every[(max if before else min)(sound)], end=before)
     part = f"Up to sample {sample} of '{title}'" if before else f"From sample {sample} of '{title}' on"
     return (
-        f"{part} the linear model explains the records, and neither it nor any law explains what was recorded "
+        f"{part} the linear model explains the records, and neither it nor any law that was tried explains what was recorded "
         f"{'after' if before else 'before'} that, at the same level: something changed then (a part fell off, a joint or a support "
         "came loose). Diagnose each part alone (segment, or hold_out)."
     )
