@@ -91,6 +91,6 @@ def test_a_direction_and_its_opposite_read_alike():
 
 def test_other_sites_that_read_alike_are_one():
     at = lambda text: (Site("element", (1,), None, text),)
-    others = [(SimpleNamespace(sites=at(text)), share) for text, share in (("b", 0.04), ("a", 0.3), ("b", 0.03), ("c", 0.02))]
+    others = [(SimpleNamespace(sites=at(text)), share) for text, share in (("b", 0.04), ("a", 0.3), ("b", 0.03), ("c", 5e-4))]
     found = _elsewhere(SimpleNamespace(sites=at("a"), elsewhere=tuple(others)))
     assert [(sites[0].text, round(share, 9)) for sites, share in found] == [("b", 0.07)]
