@@ -21,6 +21,7 @@ from mouse_cli.updating.recordings.noise import noise
 from mouse_cli.updating.recordings.polish import Polish, followed
 from mouse_cli.updating.recordings.records import named, records
 from mouse_cli.updating.recordings.regression import Regression
+from mouse_cli.updating.recordings.rotations import spelled
 from mouse_cli.updating.recordings.study import Study, begin, study
 from mouse_cli.updating.recordings.uncertain import Uncertain
 from mouse_cli.updating.recordings.validation import scores, surface, trace
@@ -58,7 +59,7 @@ def update_records(problem: Problem, notice: Notice) -> RecordUpdate:
         problem=problem,
         theta=own.model.theta(fit.x[: own.model.own]),
         covariance=scale * _covariance(own.model, fit),
-        laws=tuple(one.spelled(problem.units) for one in replace(fit, covariance=scale * fit.covariance).causes),
+        laws=tuple(spelled(one, problem) for one in replace(fit, covariance=scale * fit.covariance).causes),
         residual=ChiSquareTest("residual", fit.misfit, dof, upper_tail(fit.misfit, dof)),
         noise_scale=scale,
         explained=explained,

@@ -283,7 +283,7 @@ def _relatives(study: Study, best: Fit, known: list[Law] | None) -> list[Fit]:
     if law.key == "friction":
         kt, slip = sizes
         begun.append((laws()["iwan"], 0, np.array([1.3 * slip, 1.3 * kt, 0.6, 1.0]), nuisances))
-    if law.key in _PARTED:  # whether it is a part of the spring of the model, which follows
+    if law.key in _PARTED and best.hypothesis.parts[-1].place.scale.link:  # whether it is a part of the spring of the model
         begun.append((laws()[_PARTED[law.key]], 0, sizes, np.zeros_like(nuisances)))
     found = []
     for one, variant, p, z in begun:

@@ -27,6 +27,7 @@ from mouse_cli.updating.recordings.adequacy import (
 from mouse_cli.updating.recordings.channels import Misreading, misreadings
 from mouse_cli.updating.recordings.fit import Fit
 from mouse_cli.updating.recordings.regression import allowed
+from mouse_cli.updating.recordings.rotations import spelled
 from mouse_cli.updating.recordings.study import Study
 
 _BETTER = 0.7  # ratio of errors on held-out records, noise taken out, that a name takes
@@ -235,5 +236,5 @@ def explanations(ranking: Ranking, own: Study) -> tuple[Explanation, ...]:
 
 def _explanation(one: Fit, probability: float, own: Study) -> Explanation:
     dof, theta = max(int(one.dof), 1), own.model.theta(one.x[: own.model.own])
-    causes = tuple(cause.spelled(own.problem.units) for cause in one.causes)
+    causes = tuple(spelled(cause, own.problem) for cause in one.causes)
     return Explanation(causes, one.misfit, dof, upper_tail(one.misfit, dof), one.log_evidence, theta, probability)
