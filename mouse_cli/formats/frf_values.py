@@ -6,6 +6,7 @@ from mouse_cli._span import Span
 from mouse_cli.formats.record_drafts import Findings
 from mouse_cli.model.channel_units import Unit, ratio, target
 from mouse_cli.model.frf_test import KINDS
+from mouse_cli.model.recording import FORCES
 from mouse_cli.model.units import Units
 
 MOTION = {"displacement": "receptance", "velocity": "mobility", "acceleration": "accelerance"}
@@ -41,7 +42,7 @@ def scaled(
 def _parts(text: str, say: Findings, where: Span | None) -> tuple[Unit, Unit] | None:
     found = ratio(text)
     response = found is not None and found[0].quantity in {**MOTION, **_TURNED}
-    if found is None or not response or found[1].quantity not in ("force", "moment"):
+    if found is None or not response or found[1].quantity not in FORCES:
         message = f"the unit '{text[:40]}' is no motion per force that is known"
         return say.error("MD611", where, message, "write it as (m/s2)/N, (m/s)/N, m/N, g/N, g/lbf, ...")
     return found

@@ -9,11 +9,10 @@ from mouse_cli.formats.recording_files import Contents
 from mouse_cli.formats.sensor import SensorDraft
 from mouse_cli.model.channel_units import unit as spelled_unit
 from mouse_cli.model.geometry import DIRECTIONS
-from mouse_cli.model.recording import INPUT, OUTPUT
+from mouse_cli.model.recording import FORCES, INPUT, OUTPUT
 
 _OWN = re.compile(r"([0-9]+)(-?)([TR][XYZ])", re.ASCII)
 _GROUND = re.compile(r"ground(-?)(T[XYZ])?", re.ASCII)
-_FORCES = ("force", "moment")
 
 
 def own_sensor(name: str, where=None, words: str = "") -> SensorDraft | None:
@@ -44,7 +43,7 @@ def own_picks(contents: Contents) -> list[Pick]:
     for i, column in enumerate(contents.columns, 1):
         sensor, spelled = own_sensor(column.name), spelled_unit(column.unit)
         if sensor is not None:
-            forced = spelled is not None and spelled.quantity in _FORCES
+            forced = spelled is not None and spelled.quantity in FORCES
             role = INPUT if forced or sensor.ground is not None else OUTPUT
             found.append(Pick(sensor, role, str(i)))
     return found

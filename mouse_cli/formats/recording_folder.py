@@ -16,10 +16,9 @@ from mouse_cli.formats.recording_source import Choice
 from mouse_cli.formats.sampling import is_time
 from mouse_cli.formats.sensor import SensorDraft
 from mouse_cli.model.channel_units import unit
-from mouse_cli.model.recording import INPUT, OUTPUT, Recording
+from mouse_cli.model.recording import FORCES, INPUT, OUTPUT, Recording
 
 _TOKEN = re.compile(r"(?<![A-Za-z0-9])([0-9]+)([-+:_ ]?)([TR][XYZ])(?![A-Za-z0-9])", re.IGNORECASE | re.ASCII)
-_FORCES = ("force", "moment")
 _SEVERAL = 3  # repeats, of which the last one is held out
 
 
@@ -154,7 +153,7 @@ def _picks(contents: Contents, choice: Choice, sensors: Sensors, where: Span) ->
     used, unused = {pick.channel for pick in picks}, []
     for name, column in zip(names, contents.columns, strict=True):
         spelled = unit(choice.units.get(column.name, column.unit))
-        force = spelled is not None and spelled.quantity in _FORCES
+        force = spelled is not None and spelled.quantity in FORCES
         if name in used or _is_time(column, choice) or (choice.responses and not force):
             continue
         sensor = sensors.of(column.name)

@@ -10,7 +10,9 @@ from mouse_cli.model.held_reading import HeldReading
 INPUT, OUTPUT = "input", "output"
 ABSOLUTE, RELATIVE = FRAMES = ("absolute", "relative")
 MOTIONS = {"displacement": 0, "velocity": 1, "acceleration": 2}  # how many times differentiated
-QUANTITIES = ("force", "moment", *MOTIONS, "rotation", "angular velocity", "angular acceleration", "sound", "other")
+ROTATIONS = {"rotation": 0, "angular velocity": 1, "angular acceleration": 2}  # likewise
+FORCES = FORCE, MOMENT = ("force", "moment")
+QUANTITIES = (*FORCES, *MOTIONS, *ROTATIONS, "sound", "other")
 
 
 @dataclass(frozen=True)

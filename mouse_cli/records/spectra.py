@@ -8,7 +8,7 @@ from mouse_cli._errors import WARNING, Diagnostic, RecordError
 from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.block_window import BlockWindow
 from mouse_cli.model.frf_test import KINDS, FrfTest
-from mouse_cli.model.recording import MOTIONS, Channel, Recording
+from mouse_cli.model.recording import FORCES, MOTIONS, Channel, Recording
 from mouse_cli.model.spectra import FOUND, STROKES, MeasuredFrf, Quality, SpectraOptions
 from mouse_cli.records.blocks import decay_rate, products, starts
 from mouse_cli.records.frf_estimators import estimator, multiple_coherence, variance
@@ -93,7 +93,7 @@ def _check(recordings: Sequence[Recording], options: SpectraOptions) -> None:
             "name forces as inputs and responses as outputs",
         )
     bad = [c for c in first.channels if c.quantity not in (*MOTIONS, *_TURNS) and c.role == "output"]
-    bad += [c for c in first.channels if c.quantity not in ("force", "moment") and c.role == "input"]
+    bad += [c for c in first.channels if c.quantity not in FORCES and c.role == "input"]
     if bad:
         message = f"channel '{bad[0].name}' is {bad[0].quantity}; functions are of motion per force"
         help = "leave it out, or correct its quantity and unit"

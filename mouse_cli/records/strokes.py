@@ -6,6 +6,9 @@ _LEVEL = 0.2  # of the largest stroke, at which one begins
 _CONTACT = 0.01  # of the largest value of a stroke, below which it has ended
 _ROOM = 2  # contacts that a force window is long
 _NOISE = 4.0  # sd of the force at rest, above which it is a stroke
+_CREST = 5.0  # peak of a random excitation, by its rms
+_QUIET = 0.05  # of the rms of an excitation, up to which what is read between strokes is noise
+_STRUCK, _BESIDE, _WHITE = 5.0, 4, 0.3  # sd from which on a stroke acts; samples on either side of it; correlation of noise at most
 _BOUNCE = 0.1  # of the largest value of a stroke: a second contact above it is a double stroke
 
 
@@ -31,6 +34,28 @@ def strokes(force: np.ndarray, block: int, pretrigger: int) -> tuple[np.ndarray,
     return np.array(begin, dtype=int), np.array(double, dtype=bool)
 
 
+def struck(force: np.ndarray) -> np.ndarray | None:
+    """Mask (t,) of when an excitation (t,) acts that is little and white noise most of the time; None: it is no strokes."""
+    still = force - np.median(force)
+    sd = _at_rest(np.abs(still))
+    if not 0 < sd < _QUIET * loud(force):
+        return None
+    acts = np.convolve(np.abs(still) > _STRUCK * sd, np.ones(2 * _BESIDE + 1), "same") > 0
+    quiet = still[~acts]
+    white = len(quiet) > len(force) / 2 and abs(quiet[1:] @ quiet[:-1]) < _WHITE * (quiet @ quiet)
+    return acts if white else None
+
+
+def loud(force: np.ndarray) -> float:
+    """rms of an excitation (t,); strokes are short, and their rms is no measure of them."""
+    return max(float(force.std()), float(np.abs(force - np.median(force)).max()) / _CREST)
+
+
+def _at_rest(size: np.ndarray) -> float:
+    """sd of a force that is normal noise most of the time, by its size (t,) about its median."""
+    return 1.4826 * float(np.median(size))
+
+
 def _double(size: np.ndarray) -> bool:
     """Whether a second contact follows the first."""
     peak = int(np.argmax(size[: max(2, len(size) // 8)]))
@@ -43,7 +68,7 @@ def _double(size: np.ndarray) -> bool:
 def contact(force: np.ndarray, begin: np.ndarray, block: int) -> int:
     """Samples from the beginning of a block within which every stroke has ended, with room for as much again."""
     size = np.abs(force - np.median(force))
-    least = _NOISE * 1.4826 * float(np.median(size))  # median absolute deviation to sd of normal noise
+    least = _NOISE * _at_rest(size)
     longest = 0
     for first in begin:
         own = size[first : first + block]

@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 
 from mouse_cli.model.recording import Recording
-from mouse_cli.updating.recordings.quietened import excitation_noise, quietened, strokes
+from mouse_cli.records.strokes import struck
+from mouse_cli.updating.recordings.quietened import excitation_noise, quietened
 
 RATE, NOISE = 4000, 0.09
 
 
-def struck(times, seconds=3.0, width=2.2e-3):
+def hit(times, seconds=3.0, width=2.2e-3):
     """A force (t,) of strokes that begin at `times`, s."""
     t = np.arange(int(seconds * RATE)) / RATE
     each = [(t - begin) / width for begin in times]
@@ -29,7 +30,7 @@ def test_noise_between_strokes_is_not_simulated_however_few_they_are(strokes):
     """Two strokes in 3 s have a rms of a fortieth of their peak: noise of 0.2 % of that is 8 % of it, and was none. It shook the
     model at its resonances, and a sound cantilever lacked something.
     """
-    force = struck(np.linspace(0.1, 2.7, strokes))
+    force = hit(np.linspace(0.1, 2.7, strokes))
     noisy = force + NOISE * np.random.default_rng(2).standard_normal(len(force))
     sd = excitation_noise(noisy[:, None], np.zeros(1))
     left = quietened(read(noisy), [0], sd).samples[:, 0] - force
@@ -42,7 +43,7 @@ def test_a_stroke_near_an_end_of_the_record_is_kept(begin):
     """A window that falls to 0 at both ends took one 40 ms after the beginning of 8 s for noise, and a sound structure for a test
     whose force is read wrong.
     """
-    force = struck([begin], 8.0 if begin < 1 else 3.0)
+    force = hit([begin], 8.0 if begin < 1 else 3.0)
     noisy = force + NOISE * np.random.default_rng(4).standard_normal(len(force))
     found = quietened(read(noisy), [0], excitation_noise(noisy[:, None], np.zeros(1))).samples[:, 0]
     assert np.abs(found - force).max() < 5 * NOISE
@@ -50,15 +51,15 @@ def test_a_stroke_near_an_end_of_the_record_is_kept(begin):
 
 def test_what_acts_softly_between_strokes_is_no_noise():
     """A shaker that goes on at a hundredth of the strokes."""
-    force = struck([0.5, 1.5])
+    force = hit([0.5, 1.5])
     soft = 0.3 * np.sin(2 * np.pi * 30 * np.arange(len(force)) / RATE)
-    assert strokes(force + soft) is None
+    assert struck(force + soft) is None
     assert quietened(read(force + soft), [0], np.zeros(1)).samples[:, 0] == pytest.approx(force + soft)
 
 
 def test_an_excitation_as_wide_as_the_samples_allow_shows_none():
     force = 45 * np.random.default_rng(3).standard_normal((12000, 1))
-    assert excitation_noise(force, np.zeros(1))[0] == 0 and strokes(force[:, 0]) is None
+    assert excitation_noise(force, np.zeros(1))[0] == 0 and struck(force[:, 0]) is None
 
 
 @pytest.mark.parametrize("part", [slice(None), slice(0, 6000), slice(6000, None)])

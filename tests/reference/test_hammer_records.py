@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 from scipy.signal import lsim
-from two_masses import K
+from two_masses import DECK, K
 
 from mouse_cli._errors import RecordError
 from mouse_cli.cli.main import cli
@@ -16,16 +16,7 @@ from mouse_cli.formats import read_deck
 from mouse_cli.updating.recordings.records import records
 
 RATE, FINER, SECONDS = 512, 8, 6.0
-MODEL = """mouse: 1
-title: two masses
-model:
-  stiffness: {order: 2, entries: [[1, 1, 5.0e4], [1, 2, -3.0e4], [2, 2, 3.0e4]]}
-  mass: {diagonal: [1, 1]}
-  damping: {order: 2, entries: [[1, 1, 6.0], [1, 2, -3.6], [2, 2, 3.6]]}
-parameters:
-  - {name: k1, nominal: 2.0e4, sd: 5 %, stiffness: [[1, 1, 1]]}
-  - {name: k2, nominal: 3.0e4, sd: 5 %, stiffness: [[1, 1, 1], [1, 2, -1], [2, 2, 1]]}
-"""
+MODEL = DECK.format(rate=0, outputs="").partition("test:")[0]
 BETWEEN = np.array([[1.0, -1.0], [-1.0, 1.0]])
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 from scipy.signal import lsim
-from two_masses import DECK, K, record
+from two_masses import DECK, K, record, shaking
 
 from mouse_cli.cli.main import cli
 from mouse_cli.formats import read_deck
@@ -37,9 +37,7 @@ def recorded(folder, kept, level) -> str:
     has; level(t): of the force.
     """
     rng, t = np.random.default_rng(3), np.arange(int(SECONDS * RATE * FINER)) / (RATE * FINER)
-    hz = np.fft.rfftfreq(len(t), t[1])
-    f = np.fft.irfft(np.where((hz > 2) & (hz < 60), np.exp(2j * np.pi * rng.uniform(size=len(hz))), 0), len(t))
-    f *= 40 / f.std() * level(t) * np.minimum(t / 0.2, 1)
+    f = 40 * shaking(t, rng) * level(t) * np.minimum(t / 0.2, 1)
     begun, motion = np.zeros(4), []
     for own, share, *mass in kept(t):
         k, per = 3e4 * share, np.diag([1.0, 1 / (mass or [1.0])[0]])

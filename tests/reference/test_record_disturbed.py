@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 from scipy.signal import lsim
-from two_masses import DECK, K, linear, record
+from two_masses import DECK, K, linear, record, shaking
 
 from mouse_cli.cli.main import cli
 from mouse_cli.formats import read_deck
@@ -24,9 +24,7 @@ def rig(folder, hum: float, drift: float, stiffer: float = 1.01, motor: float = 
     first mass at MOTOR Hz.
     """
     rng, t = np.random.default_rng(9), np.arange(int(SECONDS * RATE * FINER)) / (RATE * FINER)
-    hz = np.fft.rfftfreq(len(t), t[1])
-    f = np.fft.irfft(np.where((hz > 2) & (hz < 60), np.exp(2j * np.pi * rng.uniform(size=len(hz))), 0), len(t))
-    f *= 40 / f.std() * np.minimum(t / 0.2, 1)
+    f = 40 * shaking(t, rng) * np.minimum(t / 0.2, 1)
     A = np.block([[np.zeros((2, 2)), np.eye(2)], [-stiffer * K, -1.2e-4 * K]])
     forces = np.column_stack([motor * np.sin(2 * np.pi * MOTOR * t), f])
     x = lsim((A, np.eye(4)[:, 2:], np.eye(4)[:2], np.zeros((2, 2))), forces, t)[1][::FINER]

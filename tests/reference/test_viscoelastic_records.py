@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 from scipy.signal import lsim
-from two_masses import DECK, RATE, K, record
+from two_masses import DECK, RATE, K, record, shaking
 
 from mouse_cli.cli.main import cli
 from mouse_cli.diagnosis.likelihoods.history.search import doubled
@@ -23,9 +23,7 @@ STIFF, TIME = 1.2e4, 6e-3  # N/m, s: a corner of 26.5 Hz, between the two modes 
 def damped(folder, stiff: float, time: float) -> str:
     """A deck whose record is of the masses with a spring and a dashpot in series between them."""
     rng, t = np.random.default_rng(5), np.arange(int(SECONDS * RATE * FINER)) / (RATE * FINER)
-    hz = np.fft.rfftfreq(len(t), t[1])
-    f = np.fft.irfft(np.where((hz > 2) & (hz < 60), np.exp(2j * np.pi * rng.uniform(size=len(hz))), 0), len(t))
-    f *= 40 / f.std() * np.minimum(t / 0.2, 1)
+    f = 40 * shaking(t, rng) * np.minimum(t / 0.2, 1)
     A = np.zeros((5, 5))
     A[:2, 2:4] = np.eye(2)
     A[2:4, :2], A[2:4, 2:4] = -1.01 * K, -1.2e-4 * K

@@ -27,6 +27,13 @@ test:
 """
 
 
+def shaking(t: np.ndarray, rng: np.random.Generator) -> np.ndarray:
+    """A random force (t,) of all lines between 2 and 60 Hz alike, of rms 1."""
+    hz = np.fft.rfftfreq(len(t), t[1])
+    f = np.fft.irfft(np.where((hz > 2) & (hz < 60), np.exp(2j * np.pi * rng.uniform(size=len(hz))), 0), len(t))
+    return f / f.std()
+
+
 def record(folder: Path, law, sensors=(1, 2), disturbance: float = 0.0, level: float = 40.0) -> str:
     """A deck whose record scipy integrated, the springs 2 % off those of the deck, damping 10 %.
 
@@ -44,12 +51,9 @@ def record(folder: Path, law, sensors=(1, 2), disturbance: float = 0.0, level: f
 def _read(law, disturbance: float, level: float) -> tuple[np.ndarray, np.ndarray]:
     """The force (t,) and the accelerations (t, 2) with their noise."""
     rng, t = np.random.default_rng(7), np.arange(int(SECONDS * RATE)) / RATE
-    lines = np.fft.rfftfreq(len(t), 1 / RATE)
-    spectrum = np.where((lines > 2) & (lines < 60), np.exp(2j * np.pi * rng.uniform(size=len(lines))), 0)
-    ramp = np.minimum(t / 0.2, 1)
-    f = np.fft.irfft(spectrum, len(t))
-    f *= level * ramp / f.std()
-    fine = np.fft.irfft(np.pad(np.fft.rfft(f), (0, 15 * len(lines))), 16 * len(t)) * 16
+    f = level * shaking(t, rng) * np.minimum(t / 0.2, 1)
+    lines = np.fft.rfft(f)
+    fine = np.fft.irfft(np.pad(lines, (0, 15 * len(lines))), 16 * len(t)) * 16
     times = np.arange(len(fine)) / RATE / 16
     shaken = disturbance * np.random.default_rng(8).standard_normal(len(t))
     stiff, damp = K * 1.02, 1.2e-4 * K * 1.1

@@ -40,10 +40,9 @@ def field_of(ranking, one: Fit, held: HeldOut | None = None) -> Field:
     odds = {id(each): float(value) for each, value in zip(ranking.fits, ranking.log_odds, strict=True)}
     named = max(odds[id(ranking.fits[i])] for i in ranking.named)
     over, other = odds[id(one)] - named, getattr(one.model.base, "other", None)
-    first = _in_words(one.nameless, *mean_values(one), over)
-    second = other and _in_words(other.nameless, *values_of_other(one), over)
-    if second and not _shown(*mean_values(one)) and significant(one):
-        first, second = second, first
+    own, beside = mean_values(one), other and values_of_other(one)
+    each = [_in_words(one.nameless, *own, over), beside and _in_words(other.nameless, *beside, over)]
+    first, second = each[::-1] if beside and _shown(*beside) and not _shown(*own) else each
     return replace(first, held_out=held, beside=second)
 
 

@@ -70,7 +70,7 @@ class Law:
     spring, `plane` between two directions of one body, or `body` along all that it translates by. limit: index of the unknown that
     a record must show, and the group of what the law is where it does not. motions: how many it couples, the first rows of
     `matrices`. linked: indices of variants that take from a spring which the model has, and no more than all of it. amounts: keys
-    of laws, and variants, that at its place make another law of it, which stands for both. massless: whether a coordinate of its
+    of laws, and variants, that at its place make another law of it, and the key of that. massless: whether a coordinate of its
     own has no mass. solitary: whether it acts beside no other linear law: together they would stand for what none of them is.
     """
 
@@ -93,7 +93,7 @@ class Law:
     motions: int = 1
     prepare: Callable | None = None
     linked: tuple[int, ...] = ()
-    amounts: tuple[tuple[str, int], ...] = ()
+    amounts: tuple[tuple[str, int, str], ...] = ()
     massless: bool = False
     solitary: bool = False
 

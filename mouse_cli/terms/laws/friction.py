@@ -33,5 +33,5 @@ LAW = Law(
     grid=24,
     states=1,
     limit=(1, "linear-stiffness"),  # what never slips is a spring
-    amounts=(("spring", 1),),  # where one of the model is lost, it yields
+    amounts=(("spring", 1, "yielding"),),  # where one of the model is lost
 )

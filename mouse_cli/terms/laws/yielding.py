@@ -36,5 +36,5 @@ LAW = Law(
     states=1,
     at="link",
     limit=(1, "linear-stiffness"),  # what yields at once is a spring that is lost
-    amounts=(("spring", 0),),  # with one added it is friction
+    amounts=(("spring", 0, "friction"),),  # with one added
 )

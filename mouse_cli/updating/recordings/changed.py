@@ -51,7 +51,7 @@ class Changed:
 def changed(own: Study) -> Changed | None:
     """When the structure changed; None where it did not, or once and for all cannot be said."""
     every = _stretches(own)
-    return (every and (_once(own, every, range(len(every))) or _once(own, every, range(len(every))[::-1]))) or None
+    return next((found for order in _orders(every) if (found := _once(own, every, order)) is not None), None)
 
 
 def broken(own: Study) -> str:
@@ -59,14 +59,10 @@ def broken(own: Study) -> str:
     side, at the same level; empty: it does not. A part of which no parameter tells may have fallen off.
     """
     every = _stretches(own)
-    for order in (range(len(every)), range(len(every))[::-1]) if every else ():
-        first = _explained(own, [every[k] for k in order[: len(every) // 3]])
-        if first is None:
-            continue
-        alike = _within(own, first)[list(order)]
-        count = int(np.argmin(alike)) if not alike.all() else len(alike)
+    for order in _orders(every):
+        first, alike, count = _begun(own, every, order)
         sound, rest = order[:count], order[count:]
-        if len(rest) >= _DURING and not alike[count:].any() and not _louder(own, sound, rest):
+        if first and len(rest) >= _DURING and not alike[list(rest)].any() and not _louder(own, sound, rest):
             return _breaking(own, every, sound, rest)
     return ""
 
@@ -88,13 +84,25 @@ def _stretches(own: Study) -> list[tuple[int, int]]:
     return [] if len(every) < _FEWEST or own.look.free else every
 
 
+def _orders(every: list[tuple[int, int]]) -> tuple[range, ...]:
+    """Of the stretches, in time and back; none of none."""
+    return (range(len(every)), range(len(every))[::-1]) if every else ()
+
+
+def _begun(own: Study, every: list[tuple[int, int]], order: Sequence[int]) -> tuple[Fit | None, np.ndarray, int]:
+    """The fit of the first third of the stretches in an order, None where the model does not explain them; the mask (G,) of those
+    that it explains, and how many of these are the first in the order.
+    """
+    first = _explained(own, [every[k] for k in order[: len(every) // 3]])
+    alike = np.zeros(len(every), dtype=bool) if first is None else _within(own, first)
+    return first, alike, next((n for n, k in enumerate(order) if not alike[k]), len(order))
+
+
 def _once(own: Study, every: list[tuple[int, int]], order: Sequence[int]) -> Changed | None:
     """The same, where the first third of the stretches in an order is before the change, or after it in an order back in time."""
-    first = _explained(own, [every[k] for k in order[: len(every) // 3]])
+    first, alike, count = _begun(own, every, order)
     if first is None:
         return None
-    alike = _within(own, first)
-    count = next((n for n, k in enumerate(order) if not alike[k]), len(order))
     for skipped in range(_DURING + 1):
         rest = order[count + skipped :]
         second = _explained(own, [every[k] for k in rest]) if len(rest) and not alike[list(rest)].any() else None

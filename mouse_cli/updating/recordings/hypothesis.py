@@ -210,14 +210,12 @@ class Hypothesis:
         if not self.extra or len(states) != 2 * n:
             return states
         halves = [[half] for half in (states[:n], states[n:])]
-        for one in self.known:
-            for half in halves:
-                own = np.abs(one.B) @ half[0] if states.ndim == 1 else one.B @ half[0]
-                half.append(np.broadcast_to(own, (one.extra, *states.shape[1:])))
-        for part in self.parts:
-            for half, size in zip(halves, (part.place.scale.x, part.place.scale.v), strict=True):
-                own = np.asarray(size) if states.ndim == 1 else part.place.B @ half[0]
-                half.append(np.broadcast_to(own, (part.extra, *states.shape[1:])))
+        sizes = [(one.B, one.extra, [np.abs(one.B) @ half for (half,) in halves]) for one in self.known]
+        sizes += [(part.place.B, part.extra, [part.place.scale.x, part.place.scale.v]) for part in self.parts]
+        for B, extra, both in sizes:
+            for half, size in zip(halves, both, strict=True):
+                own = np.asarray(size) if states.ndim == 1 else B @ half[0]
+                half.append(np.broadcast_to(own, (extra, *states.shape[1:])))
         return np.concatenate([one for half in halves for one in half])
 
     def gauged(self, x: np.ndarray) -> np.ndarray:

@@ -5,14 +5,12 @@ from dataclasses import replace
 import numpy as np
 
 from mouse_cli.model.recording import Recording
+from mouse_cli.records.strokes import loud, struck
 from mouse_cli.updating.recordings.floors import LINES, levels, lowest
 
 _SEEN = 0.05  # floor of the spectrum of an excitation, by its rms, up to which it is noise and no excitation
-_CREST = 5.0  # peak of a random excitation, by its rms
 _FLAT = 1.2  # level by the floor, that three tenths of its spectrum stay below where the floor is white noise
 _ENDS, _QUIET = 4, 0.02  # samples at an end of an excitation, and share of its peak up to which it does not act there
-_TO_SD = 1.4826  # times the median of the size of Gaussian noise
-_STRUCK, _BESIDE, _WHITE = 5.0, 4, 0.3  # sd from which on a stroke acts; samples on either side of it; correlation of noise at most
 
 
 def excitation_noise(force: np.ndarray, stated: np.ndarray) -> np.ndarray:
@@ -24,23 +22,18 @@ def excitation_noise(force: np.ndarray, stated: np.ndarray) -> np.ndarray:
         return np.zeros(0)
     groups = levels(force, _whole(force))
     floor, more = lowest(groups), np.sqrt(np.quantile(groups, 0.3, axis=0))
-    seen = (floor < _SEEN * np.array([_loud(x) for x in force.T])) & (more < _FLAT * floor)
-    between = np.array([0.0 if (acts := strokes(x)) is None else x[~acts].std() for x in force.T])
+    seen = (floor < _SEEN * np.array([loud(x) for x in force.T])) & (more < _FLAT * floor)
+    between = np.array([0.0 if (acts := struck(x)) is None else x[~acts].std() for x in force.T])
     found = np.where(between > 0, between, np.where(seen, floor, 0.0))
     return np.where(stated > 0, stated * force.std(axis=0), found)
 
 
 def acting(force: np.ndarray) -> np.ndarray | None:
     """When the noise of excitations (t, i) acts in simulations: of strokes as long as they do; None: there are none."""
-    each = [strokes(x) if x.any() else np.zeros(len(x), dtype=bool) for x in force.T]
+    each = [struck(x) if x.any() else np.zeros(len(x), dtype=bool) for x in force.T]
     if all(own is None for own in each):
         return None
     return np.column_stack([np.ones(len(force), dtype=bool) if own is None else own for own in each])
-
-
-def _loud(x: np.ndarray) -> float:
-    """rms of an excitation (t,); strokes are short, and their rms is no measure of them."""
-    return max(float(x.std()), float(np.abs(x - np.median(x)).max()) / _CREST)
 
 
 def quietened(record: Recording, inputs: list[int], sd: np.ndarray) -> Recording:
@@ -54,7 +47,7 @@ def quietened(record: Recording, inputs: list[int], sd: np.ndarray) -> Recording
         channel, x = record.channels[j], samples[:, j] - samples[:, j].mean()
         if channel.ground and channel.quantity != "acceleration":
             continue
-        if (acts := strokes(x)) is not None:
+        if (acts := struck(x)) is not None:
             samples[~acts, j] = np.median(samples[~acts, j])
         elif noise and x.any():
             share = np.maximum(1 - noise**2 / levels(x[:, None], _whole(x[:, None]))[:, 0], 0.0)
@@ -65,18 +58,6 @@ def quietened(record: Recording, inputs: list[int], sd: np.ndarray) -> Recording
             share = share[np.clip((lines - 1) // LINES, 0, len(share) - 1)]
             samples[:, j] += np.fft.irfft(share * np.fft.rfft(x), len(x)) - x
     return replace(record, samples=samples)
-
-
-def strokes(x: np.ndarray) -> np.ndarray | None:
-    """Mask (t,) of when an excitation acts that is little and white noise most of the time; None: it is another one."""
-    away = np.abs(x - np.median(x))
-    sd = _TO_SD * np.median(away)
-    if not 0 < sd < _SEEN * _loud(x):
-        return None
-    acts = np.convolve(away > _STRUCK * sd, np.ones(2 * _BESIDE + 1), "same") > 0
-    quiet = x[~acts] - np.median(x)
-    white = len(quiet) > len(x) / 2 and abs(quiet[1:] @ quiet[:-1]) < _WHITE * (quiet @ quiet)
-    return acts if white else None
 
 
 def _whole(force: np.ndarray) -> np.ndarray:

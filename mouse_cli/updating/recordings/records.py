@@ -6,20 +6,20 @@ import numpy as np
 
 from mouse_cli._errors import ERROR, WARNING, DeckError, Diagnostic
 from mouse_cli.model.problem import Problem
-from mouse_cli.model.recording import MOTIONS, Channel, Recording
+from mouse_cli.model.recording import FORCES, MOTIONS, ROTATIONS, Channel, Recording
 from mouse_cli.updating.recordings import ground
 from mouse_cli.updating.recordings.clipped import unclipped
 from mouse_cli.updating.recordings.disturbance import BLOCK, Disturbance
 from mouse_cli.updating.recordings.floors import floor
 from mouse_cli.updating.recordings.quietened import acting, excitation_noise, quietened
-from mouse_cli.updating.recordings.roving import FORCES, measures, with_all_forces
+from mouse_cli.updating.recordings.roving import measures, with_all_forces
 from mouse_cli.updating.recordings.series import Series
 from mouse_cli.updating.recordings.uncertain import Uncertain
 
 FLOOR = 0.01  # of the rms of a channel: no transducer and no theory is more accurate
 HELD = 0.3  # share at the end of each record that is held out where the deck holds nothing out
 _RUNG, _SHORTEST = 0.999, 256  # share of the energy of a free decay that is used; its samples, at least
-_ORDERS = MOTIONS | {"rotation": 0, "angular velocity": 1, "angular acceleration": 2}  # how many times differentiated
+_ORDERS = MOTIONS | ROTATIONS  # how many times differentiated
 _MOVING = (
     "the ground moves: motions are simulated relative to it, and absolute channels compared less its measured motion"
 )

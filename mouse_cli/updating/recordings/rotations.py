@@ -5,9 +5,9 @@ from dataclasses import replace
 
 from mouse_cli.model.explanation import Cause
 from mouse_cli.model.problem import Problem
+from mouse_cli.model.recording import MOMENT, ROTATIONS
 
 _TURNED = {"kg": "kg m2", "N": "N m", "m": "rad"}
-_QUANTITIES = ("rotation", "angular velocity", "angular acceleration", "moment")
 
 
 def spelled(cause: Cause, problem: Problem) -> Cause:
@@ -30,6 +30,6 @@ def turned(unit: str) -> str:
 def _rotations(problem: Problem) -> set[str]:
     """Labels of degrees of freedom that turn: by their direction, those of a model of matrices by what is measured of them."""
     labels = problem.structure.labels
-    channels = (each for one in problem.recordings for each in one.channels if each.quantity in _QUANTITIES)
+    channels = (each for one in problem.recordings for each in one.channels if each.quantity in (MOMENT, *ROTATIONS))
     read = {labels[i] for each in channels for i in each.weights}
     return read | {label for label in labels if label[-2:-1] == "R"}

@@ -6,9 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from mouse_cli.model.problem import Problem
-from mouse_cli.model.recording import INPUT, Channel, Recording
-
-FORCES = ("force", "moment")
+from mouse_cli.model.recording import FORCES, INPUT, Channel, Recording
 
 
 def with_all_forces(problem: Problem) -> Problem:
@@ -40,4 +38,4 @@ def _forces(one: Recording) -> list[Channel]:
 
 def measures(c: Channel) -> tuple:
     """What a channel measures and how well, whatever it is called."""
-    return c.role, c.quantity, tuple(c.weights.items()), c.ground, c.frame, c.gain_sd, c.delay_sd, c.noise_sd
+    return c.role, c.quantity, frozenset(c.weights.items()), c.ground, c.frame, c.gain_sd, c.delay_sd, c.noise_sd

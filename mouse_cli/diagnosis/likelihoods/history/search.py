@@ -45,7 +45,6 @@ _FIRST_ORDER = 0.02
 _TAKEN = 0.5  # of what may be noise, that a law leaves at most to be more than it
 _SERIES = "smooth-stiffness"  # group of laws that are terms of one power series
 _ABOUT = 1.15  # times the least that a law leaves, up to which another one leaves about as much
-_PARTED = {"friction": "yielding", "yielding": "friction"}  # the same slider, beside a spring of the model or in it
 _ROUNDS, _SECONDS = 3, 4  # laws beside which a second one is sought, and starts of it that are fitted
 
 Notice = Callable[[str], None]
@@ -227,7 +226,7 @@ def doubled(start: Start) -> bool:
     parts = start.hypothesis.parts
     laws = [(part.law.key if part.law.group == _SERIES else part.law.group, part.place.where) for part in parts]
     there = {(part.law.key, part.variant, part.place.where) for part in parts}
-    amounts = any((*each, part.place.where) in there for part in parts for each in part.law.amounts)
+    amounts = any((key, i, part.place.where) in there for part in parts for key, i, _ in part.law.amounts)
     alone = any(part.law.solitary for part in parts) and sum(part.law.linear for part in parts) > 1
     return amounts or alone or len({*laws}) < len(laws)
 
@@ -283,8 +282,8 @@ def _relatives(study: Study, best: Fit, known: list[Law] | None) -> list[Fit]:
     if law.key == "friction":
         kt, slip = sizes
         begun.append((laws()["iwan"], 0, np.array([1.3 * slip, 1.3 * kt, 0.6, 1.0]), nuisances))
-    if law.key in _PARTED and best.hypothesis.parts[-1].place.scale.link:  # whether it is a part of the spring of the model
-        begun.append((laws()[_PARTED[law.key]], 0, sizes, np.zeros_like(nuisances)))
+    if best.hypothesis.parts[-1].place.scale.link:  # a slider in a spring of the model, or beside it
+        begun += [(laws()[other], 0, sizes, np.zeros_like(nuisances)) for *_, other in law.amounts]
     found = []
     for one, variant, p, z in begun:
         if known is None or one in known:
