@@ -15,7 +15,7 @@ from mouse_cli.updating.recordings.fit import Fit
 from mouse_cli.updating.recordings.polish import followed
 from mouse_cli.updating.recordings.segments import Segments
 from mouse_cli.updating.recordings.series import passed
-from mouse_cli.updating.recordings.study import Study, begin, fitted
+from mouse_cli.updating.recordings.study import Study, begin, fitted, spread_over
 
 _FEWEST = 6  # stretches, of which the first third is fitted, or the last
 _DURING = 2  # stretches in which it changes, at most
@@ -142,7 +142,7 @@ def _within(own: Study, one: Fit) -> np.ndarray:
     """Mask (G,) of the stretches of which the model leaves no more than noise with its parameters as in a fit of others."""
     held, place = one.hypothesis.held(one.x), own.places[0]
     looks = [own.at(place, None if part.series is own.look else part.series) for part in own.data]
-    found = followed(held, own.data, looks[0].spread, np.zeros(0), *begin(held, one.x, own.data, looks))
+    found = followed(held, own.data, spread_over(looks), np.zeros(0), *begin(held, one.x, own.data, looks))
     if found is None:
         return np.zeros(sum(len(part.starts) for part in own.data), dtype=bool)
     return (found.residual**2).mean(axis=(0, 1)) <= INADEQUATE * passed() * max(1.0, one.misfit / one.dof)

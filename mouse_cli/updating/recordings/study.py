@@ -1,6 +1,6 @@
 """What all fits of a deck by its recordings share, and one fit."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from copy import copy
 from dataclasses import dataclass, replace
 
@@ -162,8 +162,8 @@ def alike(own: Study, of: Modelled) -> Study:
     data = [replace(part, series=seen(part.series)) for part in own.data]
     base = replace(own.base, linear=model.linear, known=acting(own.problem, model.basis))
     found = Study(own.problem, own.records, model, base, seen(own.look), data, own.band, own.length)
-    begun = own.at(own.places[0]).spread
-    found.spread = found.at(found.places[0]).spread.copy()
+    over = lambda one: spread_over([one.at(one.places[0], _own(one, part)) for part in one.data])
+    begun, found.spread = over(own), over(found)
     if own.model.basis.shape[0] == own.model.basis.shape[1]:
         # further degrees of freedom are those of a mechanism, behind those of the deck
         for into, known in zip(np.split(found.spread, 2), np.split(begun, 2), strict=True):
@@ -205,7 +205,7 @@ def fitted(study: Study, start: Start | None, beat: float = np.inf, first: Fit |
     place = hypothesis.place or study.places[0]
     x = np.zeros(len(study.base.mean)) if start is None else start.x
     look = {id(data): study.at(place, _own(study, data), first) for data in study.data}
-    spread = look[id(study.data[0])].spread if study.spread is None else study.spread
+    spread = spread_over(look.values()) if study.spread is None else study.spread
     states, internal = begin(hypothesis, x, study.data, [look[id(data)] for data in study.data])
     return followed(hypothesis, study.data, spread, x, states, internal, beat)
 
@@ -218,6 +218,11 @@ def finer(study: Study, one: Fit) -> Fit:
     if found is None or found.cost > _SAME * one.cost:
         return one
     return replace(one, x=found.x, states=found.states, covariance=found.covariance)
+
+
+def spread_over(looks: Iterable[Regression]) -> np.ndarray:
+    """sd (2m,) of initial states in stretches of all records: the rms of what each shows, as some are louder than others."""
+    return np.sqrt(np.mean([look.spread**2 for look in looks], axis=0))
 
 
 def begin(hypothesis: Hypothesis, x: np.ndarray, data: list[Segments], looks: list[Regression]):

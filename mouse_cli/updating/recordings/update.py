@@ -22,7 +22,7 @@ from mouse_cli.updating.recordings.polish import Polish, followed
 from mouse_cli.updating.recordings.records import named, records
 from mouse_cli.updating.recordings.regression import Regression
 from mouse_cli.updating.recordings.rotations import spelled
-from mouse_cli.updating.recordings.study import Study, begin, study
+from mouse_cli.updating.recordings.study import Study, begin, spread_over, study
 from mouse_cli.updating.recordings.uncertain import Uncertain
 from mouse_cli.updating.recordings.validation import scores, surface, trace
 from mouse_cli.updating.refusals import not_simulated
@@ -99,7 +99,7 @@ def _fitted(own: Study, parts: list[tuple[Part, np.ndarray]]) -> tuple[Fit | Non
     x = np.concatenate([np.zeros(hypothesis.nuisances), *sizes])
     looks = [own.at(own.places[0], data.series) for data in own.data]
     states, internal = begin(hypothesis, x, own.data, looks)
-    spread = looks[0].spread
+    spread = spread_over(looks)
     as_it_is = Polish(hypothesis.held(x), own.data, spread).fit(np.zeros(0), states, internal)
     if as_it_is is None:
         return None, None
