@@ -1,7 +1,6 @@
 """Which starts of laws are followed in recordings, on two masses whose records scipy integrates."""
 
-import re
-from pathlib import Path
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -32,21 +31,19 @@ def test_a_law_behind_others_of_its_group_is_followed_where_none_of_them_does(tm
     assert where(named) == where(cubic) and abs(np.exp(named.x[-1]) / 4e9 - 1) < 0.05
 
 
-def _two(folder, levels):
-    """The fit of a sound deck to two records of these levels of the force (N), one after the other."""
-    for name, level in zip(("run", "second"), levels, strict=True):
-        (folder / name).mkdir(parents=True)
-        deck = Path(record(folder / name, lambda u, v: np.zeros(2), level=level))
-    (first,) = re.findall(r"(?s)    - file: run.npz.*", deck.read_text())
-    again = first.replace("run.npz", "second/run.npz").replace("- file", "- title: another\n      file")
-    (folder / "deck.yaml").write_text(deck.read_text().replace("run.npz", "run/run.npz") + again)
-    problem = read_deck(str(folder / "deck.yaml"))
+def _sound(folder, levels):
+    """The fit of a sound deck to records of these levels of the force (N), one after the other."""
+    read = []
+    for level in levels:
+        problem = read_deck(record(folder, lambda u, v: np.zeros(2), level=level))
+        read += [replace(one, title=f"{level:g} N") for one in problem.recordings]
+    problem = replace(problem, recordings=tuple(read))
     return fitted(study(problem, records(problem)), None)
 
 
 def test_records_of_different_loudness_may_come_in_any_order(tmp_path):
     """States of the louder one were held within those of the first, so that a wrong offset of the force was fitted."""
-    quiet, loud = _two(tmp_path / "quiet first", (10.0, 80.0)), _two(tmp_path / "loud first", (80.0, 10.0))
+    quiet, loud = _sound(tmp_path, (10.0, 80.0)), _sound(tmp_path, (80.0, 10.0))
     offset = quiet.hypothesis.offsets
     assert quiet.log_evidence == pytest.approx(loud.log_evidence, abs=1.0)
     np.testing.assert_allclose(quiet.x, loud.x, atol=0.1)

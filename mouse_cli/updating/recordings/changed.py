@@ -140,8 +140,7 @@ def _explained(own: Study, some: list[tuple[int, int]]) -> Fit | None:
 
 def _within(own: Study, one: Fit) -> np.ndarray:
     """Mask (G,) of the stretches of which the model leaves no more than noise with its parameters as in a fit of others."""
-    held, place = one.hypothesis.held(one.x), own.places[0]
-    looks = [own.at(place, None if part.series is own.look else part.series) for part in own.data]
+    held, looks = one.hypothesis.held(one.x), own.looks(own.places[0])
     found = followed(held, own.data, spread_over(looks), np.zeros(0), *begin(held, one.x, own.data, looks))
     if found is None:
         return np.zeros(sum(len(part.starts) for part in own.data), dtype=bool)

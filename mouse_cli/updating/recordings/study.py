@@ -1,6 +1,6 @@
 """What all fits of a deck by its recordings share, and one fit."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from copy import copy
 from dataclasses import dataclass, replace
 
@@ -103,6 +103,10 @@ class Study:
             self._at[key] = first, self.looked(place, self.spectrum, first)
         return self._at[key][1]
 
+    def looks(self, place: Place, first: Fit | None = None) -> list[Regression]:
+        """The same of the records of all stretches."""
+        return [self.at(place, _own(self, part), first) for part in self.data]
+
     def looked(self, place: Place, spectrum: Spectrum, first: Fit | None = None, error: float = 0.0) -> Regression:
         """The same of a spectrum, not kept; error: of the closed form."""
         base, x = (self.base, None) if first is None else (first.hypothesis, first.x)
@@ -162,8 +166,7 @@ def alike(own: Study, of: Modelled) -> Study:
     data = [replace(part, series=seen(part.series)) for part in own.data]
     base = replace(own.base, linear=model.linear, known=acting(own.problem, model.basis))
     found = Study(own.problem, own.records, model, base, seen(own.look), data, own.band, own.length)
-    over = lambda one: spread_over([one.at(one.places[0], _own(one, part)) for part in one.data])
-    begun, found.spread = over(own), over(found)
+    begun, found.spread = (spread_over(one.looks(one.places[0])) for one in (own, found))
     if own.model.basis.shape[0] == own.model.basis.shape[1]:
         # further degrees of freedom are those of a mechanism, behind those of the deck
         for into, known in zip(np.split(found.spread, 2), np.split(begun, 2), strict=True):
@@ -204,9 +207,9 @@ def fitted(study: Study, start: Start | None, beat: float = np.inf, first: Fit |
     hypothesis = study.base if start is None else start.hypothesis
     place = hypothesis.place or study.places[0]
     x = np.zeros(len(study.base.mean)) if start is None else start.x
-    look = {id(data): study.at(place, _own(study, data), first) for data in study.data}
-    spread = spread_over(look.values()) if study.spread is None else study.spread
-    states, internal = begin(hypothesis, x, study.data, [look[id(data)] for data in study.data])
+    looks = study.looks(place, first)
+    spread = spread_over(looks) if study.spread is None else study.spread
+    states, internal = begin(hypothesis, x, study.data, looks)
     return followed(hypothesis, study.data, spread, x, states, internal, beat)
 
 
@@ -220,7 +223,7 @@ def finer(study: Study, one: Fit) -> Fit:
     return replace(one, x=found.x, states=found.states, covariance=found.covariance)
 
 
-def spread_over(looks: Iterable[Regression]) -> np.ndarray:
+def spread_over(looks: list[Regression]) -> np.ndarray:
     """sd (2m,) of initial states in stretches of all records: the rms of what each shows, as some are louder than others."""
     return np.sqrt(np.mean([look.spread**2 for look in looks], axis=0))
 

@@ -97,7 +97,7 @@ def _fitted(own: Study, parts: list[tuple[Part, np.ndarray]]) -> tuple[Fit | Non
     hypothesis = replace(own.base, known=(), place=place, parts=tuple(part for part, _ in parts))
     sizes = [np.log(values) for _, values in parts]
     x = np.concatenate([np.zeros(hypothesis.nuisances), *sizes])
-    looks = [own.at(own.places[0], data.series) for data in own.data]
+    looks = own.looks(own.places[0])
     states, internal = begin(hypothesis, x, own.data, looks)
     spread = spread_over(looks)
     as_it_is = Polish(hypothesis.held(x), own.data, spread).fit(np.zeros(0), states, internal)
