@@ -89,4 +89,12 @@ CODES = {
         "do not hold.",
         "Begin later (`--segment`), and compare the modes of the loud part with those of the quiet one.",
     ),
+    "MD684": Code(
+        "sweep without a measured force",
+        "The responses are one frequency that passes through the band: a machine that runs up or down, a swept sine whose force "
+        "was not recorded. Output-only identification takes the force for broadband, which holds for a slow passage, but not at "
+        "the frequency at which it begins or ends: the jump of the response there looks like a resonance, and hides one that is "
+        "near. What is found there is left out.",
+        "Begin and end the sweep away from resonances, or record the force too.",
+    ),
 }

@@ -18,6 +18,7 @@ from mouse_cli.records.lscf import OrderPoles
 from mouse_cli.records.modal_model import synthesised
 from mouse_cli.records.mode_selection import Dropped
 from mouse_cli.records.stabilisation import Track
+from mouse_cli.records.sweep import sweep
 
 Band = tuple[float, float] | None
 _BRIEF = 3  # orders in which a pole was stable: fewer are not worth a line of the report
@@ -80,7 +81,8 @@ def identify_recordings(
         doubt = short_of(parts, rates[0], outputs_only.least_samples())
         return _nothing(title, sources, method, names, edges, noise, doubt)
     found = outputs_only.identify_outputs(parts, rates[0], edges, division, most, say)
-    judged, remarks = reviewed_outputs(found, edges), lost(division, found.samples, rates[0])
+    sweeps = [sweep(each, rates[0]) for each in parts]
+    judged, remarks = reviewed_outputs(found, edges, sweeps), lost(division, found.samples, rates[0])
     return Identification(
         title, sources, method, names, edges, judged.modes, _diagram_outputs(found, parts, rates[0]), noise,
         rejected=(*judged.rejected, *_rejected(found.dropped, found.passing)), doubts=judged.doubts,

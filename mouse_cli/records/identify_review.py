@@ -1,5 +1,6 @@
 """What speaks against identified modes: edges of the band, narrow resonances, poor fits, driving points that cannot be."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +14,7 @@ from mouse_cli.records.identify_output_only import FoundOutputs
 from mouse_cli.records.modal_model import ModalModel, partial_fractions, synthesised
 from mouse_cli.records.mode_selection import UNKNOWN, UNKNOWN_DAMPING
 from mouse_cli.records.pole_search import NARROWEST
+from mouse_cli.records.sweep import Sweep, swept
 
 _NARROW = 2.0  # lines in a half-power bandwidth
 _POOR = 1 / 3
@@ -173,9 +175,9 @@ def _kind(model: ModalModel, kept: list[int]) -> list[Diagnostic]:
     return [Diagnostic("MD656", WARNING, message, help="correct kind: receptance, mobility or accelerance")]
 
 
-def reviewed_outputs(found: FoundOutputs, band_hz: tuple[float, float]) -> Review:
-    """The modes of a record of outputs that lie within the band."""
-    rejected, doubts, kept = [], [], []
+def reviewed_outputs(found: FoundOutputs, band_hz: tuple[float, float], sweeps: Sequence[Sweep | None] = ()) -> Review:
+    """The modes of records of outputs that lie within the band, and not where records that are sweeps begin."""
+    rejected, doubts, kept, begins = [], [], [], []
     for k, mode in enumerate(found.modes):
         hz, zeta = abs(mode.pole) / (2 * np.pi), -mode.pole.real / abs(mode.pole)
         reason = _at_edge(hz, zeta, *band_hz)
@@ -185,6 +187,9 @@ def reviewed_outputs(found: FoundOutputs, band_hz: tuple[float, float]) -> Revie
                 Diagnostic("MD652", ERROR, message, help="move the edge away from the resonance: --band LOW HIGH")
             )
             rejected.append(Rejected(hz, zeta, reason))
+        elif any(one is not None and one.begins_at(hz) for one in sweeps):
+            begins.append(hz)
+            rejected.append(Rejected(hz, zeta, "lies where a sweep begins or ends"))
         else:
             kept.append(k)
     kept.sort(key=lambda k: abs(found.modes[k].pole))
@@ -192,7 +197,7 @@ def reviewed_outputs(found: FoundOutputs, band_hz: tuple[float, float]) -> Revie
     modes = from_subspace([found.modes[k] for k in kept], stable)
     if not modes.m:
         doubts.append(_none(len(rejected) + len(found.dropped)))
-    return Review(modes, tuple(rejected), tuple(doubts), ())
+    return Review(modes, tuple(rejected), tuple(doubts), swept(sweeps, begins))
 
 
 _REACH = 3.0  # half-power bandwidths to either side

@@ -29,16 +29,20 @@ def disturbed(H: np.ndarray, share: float, random: np.random.Generator) -> tuple
 
 
 def responses(rate_hz: float, count: int, zeta: float, share: float, random: np.random.Generator) -> np.ndarray:
-    """Accelerations (t, 3) under independent white forces held over each sample, modes filtered by scipy.signal, with noise."""
+    """Accelerations (t, 3) under independent white forces, with noise that is a share of the sd of each channel."""
+    whole = forced(rate_hz, random.standard_normal((count, 3)), zeta)
+    return whole + share * whole.std(axis=0) * random.standard_normal(whole.shape)
+
+
+def forced(rate_hz: float, forces: np.ndarray, zeta: float) -> np.ndarray:
+    """Accelerations (t, 3) under forces (t, 3) that are held over each sample, modes filtered by scipy.signal."""
     from scipy.signal import cont2discrete, lfilter, ss2tf
 
     omega, damping, shapes = modes(zeta)
-    forces = random.standard_normal((count, 3)) @ shapes
-    answers = np.empty((count, 3))
+    answers = np.empty((len(forces), 3))
     for r in range(3):
         rates = [[-(omega[r] ** 2), -2 * damping[r] * omega[r]]]
         system = np.array([[0, 1], *rates]), np.array([[0.0], [1.0]]), np.array(rates), np.array([[1.0]])
         b, a = ss2tf(*cont2discrete(system, 1 / rate_hz)[:4])
-        answers[:, r] = lfilter(b[0], a, forces[:, r])
-    whole = answers @ shapes.T
-    return whole + share * whole.std(axis=0) * random.standard_normal(whole.shape)
+        answers[:, r] = lfilter(b[0], a, forces @ shapes[:, r])
+    return answers @ shapes.T
