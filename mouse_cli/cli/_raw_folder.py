@@ -117,11 +117,13 @@ def _known(choice, sensors) -> None:
 
 def _used(choice, found) -> None:
     """Refuse units of channels that no recording has."""
-    channels = {channel.name for each in found.records for channel in each.recording.channels}
+    from mouse_cli.formats.channels import bearing
+
+    channels = sorted({channel.name for each in found.records for channel in each.recording.channels})
     for name in choice.units:
-        if name not in channels:
+        if not bearing(channels, name):
             raise click.BadParameter(
-                f"no recording uses a channel '{name}'; they use {', '.join(sorted(channels))}", param_hint="--unit"
+                f"no recording uses a channel '{name}'; they use {', '.join(channels)}", param_hint="--unit"
             )
 
 

@@ -1,6 +1,7 @@
 """Channels of a file: found by name or number, told from one another, and brought to the units of the deck."""
 
 import re
+from collections.abc import Sequence
 from difflib import get_close_matches
 
 import numpy as np
@@ -15,21 +16,37 @@ _SENSITIVITY = re.compile(r"\s*([0-9.]+(?:[eE][-+]?[0-9]+)?)\s*(\S.*)")
 _SAME = 0.01  # relative difference of two units that are one
 
 
-def column(contents: Contents, name: str, say: Findings, where) -> Column | None:
-    """The channel called `name`, whatever its case, with or without the group or struct before its last dot, or the one of that
-    number, from 1; None after an error.
+def bearing(names: Sequence[str], name: str) -> list[int]:
+    """Which of `names` are `name`: as it is spelled; else whatever its case; else after the group or struct before the last dot.
+
+    >>> bearing(["meas.H4", "meas.a1", "A1"], "h4"), bearing(["meas.H4", "meas.a1", "A1"], "a1")
+    ([0], [2])
     """
-    number = name.isdecimal() and 1 <= int(name) <= len(contents.columns)
-    last = lambda a: not number and a.rpartition(".")[2].lower() == name.lower()
-    for same in (lambda a: a == name, lambda a: a.lower() == name.lower(), last):
-        found = [each for each in contents.columns if same(each.name)]
-        if len(found) == 1:
-            return found[0]
+    own = lambda a: a.rpartition(".")[2].lower() == name.lower()
+    for same in (lambda a: a == name, lambda a: a.lower() == name.lower(), own):
+        found = [i for i, each in enumerate(names) if same(each)]
         if found:
-            message = f"{len(found)} channels of the file are called '{name[:40]}'"
-            return say.error("MD600", where, message, "name it by its number, from 1")
-    if number:
-        return contents.columns[int(name) - 1]
+            return found
+    return []
+
+
+def called(contents: Contents, name: str) -> list[int]:
+    """Which columns of a file bear a name (`bearing`); else, and before a name after a dot, the one of that number, from 1."""
+    names = [each.name for each in contents.columns]
+    found = bearing(names, name)
+    if name.isdecimal() and 1 <= int(name) <= len(names) and not any(names[i] == name for i in found):
+        return [int(name) - 1]
+    return found
+
+
+def column(contents: Contents, name: str, say: Findings, where) -> Column | None:
+    """The one channel that is called so; None after an error."""
+    found = called(contents, name)
+    if len(found) == 1:
+        return contents.columns[found[0]]
+    if found:
+        message = f"{len(found)} channels of the file are called '{name[:40]}'"
+        return say.error("MD600", where, message, "name it by its number, from 1")
     return say.error(
         "MD600",
         where,

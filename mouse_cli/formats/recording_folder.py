@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from mouse_cli._errors import ERROR, WARNING, Diagnostic, MouseError, RecordError
 from mouse_cli._span import Span
 from mouse_cli.formats import below
+from mouse_cli.formats.channels import bearing, called
 from mouse_cli.formats.record_drafts import Findings, Pick
 from mouse_cli.formats.recording import recording
 from mouse_cli.formats.recording_files import Column, Contents, read_contents
@@ -128,6 +129,7 @@ def _recordings(path: str, choice: Choice, sensors: Sensors) -> tuple[list[Raw],
     contents, say, where = read_contents(path), Findings(), Span(path, 1)
     if not contents.columns:
         _refuse(where, "the file holds functions, no recording", "name it in a deck: test: {frf: [{file: ...}]}")
+    choice = _whole(choice, contents)
     picks, unused = _picks(contents, choice, sensors, where)
     found = []
     for segment in contents.stretches or (None,):
@@ -147,7 +149,7 @@ def _refuse(where: Span, message: str, help: str) -> None:
 def _picks(contents: Contents, choice: Choice, sensors: Sensors, where: Span) -> tuple[list[Pick], list[str]]:
     """The channels that are sensors, forces first, and the names of those that are none."""
     names = _names(contents)
-    here = [text for text in choice.forces if _at(contents, names, text.rpartition("=")[2])]  # a hammer goes from place to place
+    here = [text for text in choice.forces if called(contents, text.rpartition("=")[2])]  # a hammer goes from place to place
     said = [(INPUT, text) for text in here or choice.forces] + [(OUTPUT, text) for text in choice.responses]
     picks = [_named(contents, names, role, text, choice, sensors, where) for role, text in said]
     used, unused = {pick.channel for pick in picks}, []
@@ -179,6 +181,14 @@ def _is_time(column: Column, choice: Choice) -> bool:
     return column.name.strip().lower() == (choice.time or "").lower() or is_time(column.name)
 
 
+def _whole(choice: Choice, contents: Contents) -> Choice:
+    """The choice with whole names of the file for its time and for those to which it gives units."""
+    names = [each.name for each in contents.columns]
+    time = called(contents, choice.time) if choice.time else []
+    units = {names[i]: text for name, text in choice.units.items() for i in bearing(names, name)}
+    return replace(choice, time=names[time[0]] if len(time) == 1 else choice.time, units=units)
+
+
 def _names(contents: Contents) -> list[str]:
     """How a deck names each column: by its name, by its number where another bears that too."""
     borne = Counter(each.name.lower() for each in contents.columns)
@@ -191,7 +201,7 @@ def _named(
     """A channel that the command line names, `CHANNEL` or `SENSOR=CHANNEL`."""
     sensor, stroke, name = text.partition("=")
     name = name if stroke else text
-    at = _at(contents, names, name)
+    at = called(contents, name)
     if len(at) != 1:
         listed, count = ", ".join(each.name for each in contents.columns[:8]), "several" if at else "no"
         message = f"the file has {count} channels '{name}'; it has {listed}"
@@ -200,14 +210,8 @@ def _named(
     own = sensor if stroke else sensors.of(column.name)
     if own is None:
         option = "--force" if role == INPUT else "--response"
-        _refuse(where, f"no sensor is given for channel '{name}' is", f"say so: {option} SENSOR={name}")
+        _refuse(where, f"nothing says which sensor channel '{name}' is", f"say so: {option} SENSOR={name}")
     return _pick(role, own, column, names[at[0]], choice, where)
-
-
-def _at(contents: Contents, names: list[str], name: str) -> list[int]:
-    """Columns that bear a name, or the one of that number, from 1."""
-    at = [i for i, each in enumerate(contents.columns) if each.name.lower() == name.lower()]
-    return at or ([int(name) - 1] if name.isdecimal() and 1 <= int(name) <= len(names) else [])
 
 
 def _pick(role: str, sensor: str, column: Column, name: str, choice: Choice, where: Span) -> Pick:

@@ -19,12 +19,12 @@ _AGREE = 1e-3  # of two sample rates
 
 
 def is_time(name: str) -> bool:
-    """Whether a column of this name holds the time: `t`, `Zeit`, `Time 1 - default sample rate`.
+    """Whether a column of this name, or of its part after a group or struct, holds the time: `t`, `Zeit`, `run.Time`.
 
-    >>> is_time("Time (s)".partition(" ")[0]), is_time("tip")
-    (True, False)
+    >>> is_time("Time (s)".partition(" ")[0]), is_time("tip"), is_time("Time 1 - default sample rate"), is_time("run.t")
+    (True, False, True, True)
     """
-    return _TIME.fullmatch(name.strip()) is not None
+    return any(_TIME.fullmatch(each.strip()) for each in (name, name.rpartition(".")[2]))
 
 
 def step_s(

@@ -295,6 +295,41 @@ def test_labview_without_heads(told):
     assert found.records[0].recording.samples[:, 1] == pytest.approx(values[:, 1], abs=1e-5)
 
 
+def test_channels_of_a_struct_by_their_own_names(told):
+    """A `.mat` whose struct `meas` holds hammers and sensors: forces, units and time are found in each."""
+    from scipy.io import savemat
+
+    from mouse_cli.formats.recording_folder import read_folder
+    from mouse_cli.formats.recording_source import Choice
+
+    Path("raw").mkdir()
+    values = measured(1)[:500]
+    for run, hammer in enumerate(("H1", "H2"), 1):
+        meas = {"clock": np.arange(500) / FS, hammer: values[:, 0], "ax": values[:, 1], "acc2": values[:, 2]}
+        savemat(f"raw/hit{run}.mat", {"meas": meas})
+    choice = Choice(("1=H1", "2=h2"), (), {"acc2": "g", "meas.H1": "kN"}, time="clock")
+    found = read_folder("raw", choice, Sensors(("acc1", "acc2"), ("1", "2", "3")))
+    assert [each.channels("input") for each in found.records] == [[("1", "meas.H1")], [("2", "meas.H2")]]
+    assert [each.channels("output") for each in found.records] == 2 * [[("acc2", "meas.acc2")]]
+    assert not found.passed and found.unused == ("meas.ax",)
+    one = found.records[0].recording
+    assert one.sample_rate_hz == pytest.approx(FS)
+    assert one.samples == pytest.approx(values[:, [0, 2]] * [1000.0, 9.80665])
+    code, _, err = told("deck.yaml", "--recordings", "raw", "--force", "1=H1", "--unit", "acc9=g", "--time", "clock")
+    assert code == 2 and "no recording uses a channel 'acc9'; they use meas.H1, meas.acc2" in err
+
+
+def test_an_own_name_that_two_structs_have_is_told(told):
+    from scipy.io import savemat
+
+    Path("raw").mkdir()
+    fast, slow = measured(1)[:500], measured(2)[:500]
+    structs = {name: {"hammer": table[:, 0], "acc1": table[:, 1]} for name, table in (("fast", fast), ("slow", slow))}
+    savemat("raw/hit.mat", {"fs": FS, **structs})
+    code, _, err = told("deck.yaml", "--recordings", "raw", "--force", "1=hammer")
+    assert code == 4 and "the file has several channels 'hammer'; it has fast.hammer" in err
+
+
 def stood_still(values: np.ndarray) -> None:
     values[1000:1400, 2] = values[1000, 2]
 
