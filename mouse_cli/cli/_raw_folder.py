@@ -89,11 +89,17 @@ def read_raw(deck: str, given: dict[str, object], notice: Callable[[str], None],
 def _with_modes(problem: Problem, notice: Callable[[str], None], say: Callable) -> Problem:
     """The problem with the modes that its outputs alone show as its test: without forces there is nothing to simulate.
 
-    Raises RecordError where they show none.
+    Raises RecordError where they show none, and where the records are not of one set-up (MD655).
     """
     from mouse_cli._errors import RecordError
     from mouse_cli.cli._identify import of_outputs
+    from mouse_cli.records.identify import alike
 
+    try:
+        alike(problem.recordings)
+    except RecordError as error:
+        help = "give those of each set-up a folder of their own: --recordings FOLDER"
+        raise RecordError(replace(each, help=help) for each in error.diagnostics) from None
     found = of_outputs(problem, problem.recordings, None, None, notice)
     if found.test is None:
         raise RecordError(found.doubts)

@@ -36,8 +36,9 @@ CODES = {
     "MD655": Code(
         "sets that are not one test",
         "Sets of functions are repeats of one measurement, or have different forces; they share their lines, their responses and "
-        "their kind. These do not.",
-        "Identify them one by one.",
+        "their kind. Recordings without forces share their responses and their sample rate. These do not.",
+        "Identify those that are alike by themselves: give these files alone, or of a deck `--recording TITLE`. For "
+        "`mouse diagnose --recordings` give those of each set-up a folder of their own.",
     ),
     "MD656": Code(
         "functions of another kind than stated",

@@ -192,7 +192,7 @@ def alike(recordings: Sequence[Recording]) -> Recording:
             rates = f"{first.sample_rate_hz:.7g} samples a second, '{other.title}' {other.sample_rate_hz:.7g}"
             message = f"'{first.title}' has {rates}"
         if message:
-            raise RecordError.of("MD655", message, help="identify them one by one: --recording TITLE")
+            raise RecordError.of("MD655", message, help="identify those that are alike by themselves")
     return first
 
 

@@ -116,6 +116,20 @@ def test_without_forces_the_modes_of_the_responses_judge(told):
     assert np.abs((again.test.frequency_hz - true) / again.test.frequency_sd_hz).max() < 4
 
 
+@pytest.mark.parametrize(
+    ("other", "rate", "words"),
+    [("acc1 acc3", 1000, "'setup1' and 'setup2' have different responses"), ("acc1 acc2", 500, "'setup2' 500")],
+)
+def test_set_ups_without_forces_are_told_what_to_do(told, other, rate, words):
+    """A roving sensor beside a reference, and runs at two rates, are none of one test: the remedy is one of this command."""
+    Path("raw").mkdir()
+    for run, (names, hz) in enumerate([("acc1 acc2", 1000), (other, rate)], 1):
+        np.savetxt(f"raw/setup{run}.txt", measured(run)[:600, 1:3], header=f"fs = {hz} Hz\n{names}\ng g")
+    code, out, err = told("deck.yaml", "--recordings", "raw")
+    assert code == 4 and not out and "error[MD655]" in err and words in err
+    assert "give those of each set-up a folder of their own: --recordings FOLDER" in err
+
+
 def test_the_deck_is_written_where_nothing_is_missing(told):
     laboratory(Path("raw"), runs=1, spring=0.0)
     code, out, err = told("deck.yaml", "--recordings", "raw", "--force", "1=hammer", "-o", "measured.yaml")
