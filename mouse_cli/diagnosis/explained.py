@@ -4,7 +4,8 @@ import numpy as np
 
 from mouse_cli.diagnosis.companions import Shared
 from mouse_cli.diagnosis.search.fit import Fit
-from mouse_cli.diagnosis.search.rank import Ranking
+from mouse_cli.diagnosis.search.rank import Ranking, group
+from mouse_cli.diagnosis.verdict import member
 from mouse_cli.model.diagnosis import Cause, Certain, Explanation, Size
 from mouse_cli.model.explanation import Places
 from mouse_cli.model.site import as_read
@@ -15,16 +16,18 @@ _LEAST = 1e-3  # share of a site below which it is no matter
 
 
 def explanations(ranking: Ranking) -> tuple[Explanation, ...]:
-    """All fits in words and numbers."""
-    return tuple(explanation(ranking.fits[i], float(ranking.probabilities[i])) for i in ranking.named)
+    """All fits in words and numbers; what stands for a group is what a verdict takes of it."""
+    named = [(ranking.fits[i], float(ranking.probabilities[i])) for i in ranking.named]
+    stand = {id(member(ranking, name)) for name in {group(one) for one, _ in named}}
+    return tuple(explanation(one, p, id(one) in stand) for one, p in named)
 
 
-def explanation(one: Fit, probability: float = 0.0) -> Explanation:
+def explanation(one: Fit, probability: float = 0.0, stands: bool = False) -> Explanation:
     """A fit as the report gives it."""
     causes = _causes(one)
     theta = one.model.base.parameters(one.point.x[: one.model.k])
     p = upper_tail(one.misfit, max(one.dof, 1))
-    return Explanation(causes, one.misfit, one.dof, p, one.log_evidence, theta, probability, _elsewhere(one))
+    return Explanation(causes, one.misfit, one.dof, p, one.log_evidence, theta, probability, _elsewhere(one), stands)
 
 
 def _elsewhere(one: Fit) -> Places:

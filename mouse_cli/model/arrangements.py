@@ -21,6 +21,7 @@ from mouse_cli.model.diagnosis import (
     Site,
     Untried,
     elsewhere,
+    foremost,
     members,
 )
 from mouse_cli.model.groups import leading
@@ -48,8 +49,9 @@ class Turn:
 
     @property
     def best(self) -> Explanation:
-        """The leading explanation of the leading group, one with a cause where there is any."""
-        return self.explanations[leading(self.groups, [one.group for one in self.explanations])]
+        """The explanation that stands for the leading group, one with a cause where there is any."""
+        groups = [one.group for one in self.explanations]
+        return foremost(self.explanations, groups[leading(self.groups, groups)])
 
     @property
     def probability(self) -> float:
@@ -73,9 +75,9 @@ class Turn:
 
     @property
     def rivals(self) -> tuple[Explanation, ...]:
-        """The first of each group that holds more than 5 % of the probability, none among them."""
-        first = {one.group: one for one in reversed(self.explanations)}
-        return tuple(first[name] for name, p in self.groups if p > RIVAL and name in first)
+        """What stands for each group that holds more than 5 % of the probability, none among them."""
+        stand = [foremost(self.explanations, name) for name, p in self.groups if p > RIVAL]
+        return tuple(filter(None, stand))
 
 
 @dataclass(frozen=True)

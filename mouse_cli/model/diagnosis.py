@@ -8,6 +8,7 @@ from mouse_cli.model.explanation import Cause as Cause
 from mouse_cli.model.explanation import Explanation as Explanation
 from mouse_cli.model.explanation import Size as Size
 from mouse_cli.model.explanation import elsewhere as elsewhere
+from mouse_cli.model.explanation import foremost as foremost
 from mouse_cli.model.explanation import members as members
 from mouse_cli.model.field import AXIAL as AXIAL
 from mouse_cli.model.field import BED as BED
@@ -136,7 +137,7 @@ class Diagnosis(Shown):
 
     @property
     def best(self) -> Explanation | None:
-        """The leading explanation of the leading group, one with a cause where there is any; of it, what is certain."""
+        """The explanation that stands for the leading group, one with a cause where there is any; of it, what is certain."""
         one = self._leading
         return one if one is None or self.certain is None else replace(one, causes=self.certain.causes, elsewhere=())
 
@@ -144,7 +145,7 @@ class Diagnosis(Shown):
     def _leading(self) -> Explanation | None:
         standing = [pair for pair in self.groups if self.kind != ONE_OF or pair[0] not in self.refuted]
         at = leading(standing, [one.group for one in self.explanations])
-        return next(iter(self.explanations), None) if at is None else self.explanations[at]
+        return next(iter(self.explanations), None) if at is None else foremost(self.explanations, self.explanations[at].group)
 
     @property
     def leader(self) -> Explanation | None:

@@ -52,7 +52,7 @@ class Explanation:
 
     chi2 on dof: what stays of the data's misfit; p of it; log_evidence: ln of the probability of the data; probability: of this
     explanation among all that were tried. theta (p,): values of the deck's own parameters. elsewhere: rival sites of the same
-    causes, and the share of each in this probability.
+    causes, and the share of each in this probability. stands: whether it stands for its group, whatever is most probable there.
     """
 
     causes: tuple[Cause, ...]
@@ -63,6 +63,7 @@ class Explanation:
     theta: np.ndarray
     probability: float = 0.0
     elsewhere: Places = ()
+    stands: bool = False
 
     def __post_init__(self) -> None:
         order = sorted(range(len(self.causes)), key=lambda i: (self.causes[i].group, self.causes[i].physics))
@@ -89,6 +90,12 @@ class Explanation:
     def title(self) -> str:
         """Its causes in words."""
         return counted([cause.title for cause in self.causes]) or "nothing"
+
+
+def foremost(explanations: Sequence[Explanation], group: str) -> Explanation | None:
+    """The explanation that stands for a group, else the first of it; None without any."""
+    own = [one for one in explanations if one.group == group]
+    return next((one for one in own if one.stands), next(iter(own), None))
 
 
 def members(explanations: Sequence[Explanation], group: str) -> tuple[tuple[str, float], ...]:

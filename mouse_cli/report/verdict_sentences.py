@@ -1,7 +1,7 @@
 """The verdict of a diagnosis in sentences: the same in printout, JSON document and page, for every kind of test."""
 
 from mouse_cli.model.diagnosis import BY_DECK, NAMED, NOTHING, ONE_OF, RIVAL, UNPROVED, Diagnosis, Explanation, Rest
-from mouse_cli.model.explanation import elsewhere
+from mouse_cli.model.explanation import elsewhere, foremost
 from mouse_cli.model.groups import enumerated
 from mouse_cli.model.record_diagnosis import RecordDiagnosis
 from mouse_cli.model.shared_place import at_one_place
@@ -68,7 +68,7 @@ def _possible(found: Diagnosis) -> str:
     group, p = max(found.groups, key=lambda each: each[1], default=("none", 1.0))
     if p <= none:
         return ""
-    first = next((one for one in found.explanations if one.causes and one.group == group), None)
+    first = foremost(found.explanations, group) if group != "none" else None
     begin, nothing = "Something may be missing all the same", f"that nothing is: {probable(none)}"
     if first is None and found.nameless > none:
         return f"{begin}, most likely a change without a name ({with_p(found.nameless)}; {nothing})."

@@ -8,6 +8,7 @@ import pytest
 from hermite_beams import Truth, deck
 from made_up_rankings import made_up, ranked
 
+from mouse_cli.diagnosis import explained
 from mouse_cli.diagnosis import verdict as decided
 from mouse_cli.diagnosis.cautions import _centres
 from mouse_cli.diagnosis.effects.change import PLACE
@@ -18,9 +19,11 @@ from mouse_cli.diagnosis.validate.informed import informed
 from mouse_cli.diagnosis.verdict import decide, far_parameters, judge, rest
 from mouse_cli.formats import yaml_deck
 from mouse_cli.formats.assemble import assemble
+from mouse_cli.model.arrangements import Turn
 from mouse_cli.model.diagnosis import (
     BY_DECK,
     BY_MODE,
+    EVERYWHERE,
     NAMED,
     NOTHING,
     ONE_OF,
@@ -449,13 +452,26 @@ def test_an_oscillator_above_the_band_is_a_mass():
 
 
 @pytest.mark.parametrize(("odds", "own"), [(2.9, "ground-spring"), (3.1, "oscillator")])
-def test_what_stands_in_for_another_does_not_lead(proofs, odds, own):
-    """An oscillator below the band is a spring to the ground, which has no mode there that would have to be measured."""
+def test_what_stands_in_for_another_does_not_lead(proofs, monkeypatch, odds, own):
+    """An oscillator below the band is a spring to the ground, which has no mode there that would have to be measured.
+
+    What leads the ranking, and is put into a deck, is what the answer describes, whatever is more probable in its group.
+    """
     soft = made_up("oscillator")
     soft.recipes[0].group = lambda c: "ground-spring"
     soft.groups[:] = ["ground-spring"]
     p = np.array([1.0, np.exp(-odds), 1e-4])
-    assert decided.leader(ranked(soft, SPRING, BARE, p=p / p.sum())).recipes[0].candidate.key == own
+    ranking = ranked(soft, SPRING, BARE, p=p / p.sum())
+    assert decided.leader(ranking).recipes[0].candidate.key == own
+    cause = lambda recipe: Cause(recipe.candidate.key, "ground-spring", recipe.candidate.title, EVERYWHERE, ())
+    of = lambda one: tuple(cause(recipe) for recipe in one.recipes)
+    told = lambda one, p, stands: Explanation(of(one), 20.0, 20, 0.5, 0.0, np.zeros(2), p, (), stands)
+    monkeypatch.setattr(explained, "explanation", told)
+    every = explained.explanations(ranking)
+    assert [one.physics for one in every] == ["oscillator", "ground-spring", "none"]
+    answer = Diagnosis(None, NAMED, None, None, every, ranking.groups)
+    assert answer.best.physics == own and answer.members[0][0] == "oscillator"
+    assert Turn(NAMED, every, ranking.groups, 1.0, every[-1]).best is answer.best
 
 
 def test_of_fields_that_which_predicts_is_given(proofs):

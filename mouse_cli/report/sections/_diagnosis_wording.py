@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from mouse_cli.model.diagnosis import NAMED, ONE_OF, Cause, Diagnosis, Explanation, Score, Site, Size, members
+from mouse_cli.model.diagnosis import NAMED, ONE_OF, Cause, Diagnosis, Explanation, Score, Site, Size, foremost, members
 from mouse_cli.model.groups import TITLES, counted, enumerated
 from mouse_cli.model.shared_place import SharedPlace
 from mouse_cli.model.units import Units
@@ -257,10 +257,10 @@ def log_evidence_over_none(found: Diagnosis, one: Explanation) -> float:
 
 
 def standing(found: Diagnosis) -> list[Explanation]:
-    """The explanation named, or the first of each group that is left, none among them."""
+    """The explanation named, or the one that stands for each group that is left, none among them."""
     if found.kind == NAMED:
         return [found.best]
-    return [next(one for one in found.explanations if one.group == name) for name, _ in found.rivals]
+    return [foremost(found.explanations, name) for name, _ in found.rivals]
 
 
 def leaders(found: Diagnosis) -> list[Explanation]:
