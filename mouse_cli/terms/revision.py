@@ -58,7 +58,8 @@ def revision(
 ) -> Revision:
     """The revised values of `problem`: those of its prior, with their standard deviations.
 
-    before: the deck before the test, for the notes. known: constants of materials that the input file of the solver states.
+    before: the deck before the test, for the notes; None: `problem` is no revised one. known: constants of materials that the
+    input file of the solver states.
     """
     before = before or problem
     title, units = problem.title.strip(), "" if problem.units == UNDECLARED else system(problem.units)
@@ -73,10 +74,13 @@ def revision(
 
 
 def _note(problem: Problem, before: Problem, j: int) -> str:
-    """Posterior, sd, and the value before, of parameter j."""
+    """Posterior, sd, and the value before, of parameter j; its prior where the deck itself is written."""
     parameter, value, sd = problem.parameters[j], problem.prior.mean[j], problem.prior.sd[j]
     unit = f" {parameter.unit}" if parameter.unit else ""
-    return f"{parameter.name}: posterior {value:.6g}{unit}, sd {sd:.3g}; before the test {before.prior.mean[j]:.6g}"
+    known = f"{value:.6g}{unit}, sd {sd:.3g}"
+    if before is problem:
+        return f"{parameter.name}: prior {known}"
+    return f"{parameter.name}: posterior {known}; before the test {before.prior.mean[j]:.6g}"
 
 
 def _values(problem: Problem, before: Problem, s: int) -> tuple[dict[str, np.ndarray], dict[str, list[str]]]:

@@ -255,7 +255,7 @@ def test_the_cards_of_a_structure(program, tmp_path):
     text = out.read_text()
     for card in CARDS[program]:
         assert card in text, text
-    assert "k: posterior 15000 N/m, sd 1.5e+03" in text
+    assert "k: prior 15000 N/m, sd 1.5e+03" in text and "posterior" not in text  # nothing was revised
 
 
 def test_shapes_for_other_programs(tmp_path):

@@ -39,9 +39,9 @@ def command(
 ) -> int:
     """Write DECK as cards of a finite-element program.
 
-    Materials, sections, springs and masses go to an include file. Every value has a comment with its posterior and standard
-    deviation; what has no card is listed in a comment. --complete writes the job itself, with element sets and supports as
-    they are now.
+    Materials, sections, springs and masses go to an include file. Every value has a comment with its standard deviation, and
+    whether it is the posterior (--result) or the deck's prior; what has no card is listed in a comment. --complete writes the
+    job itself, with element sets and supports as they are now.
     """
     from mouse_cli.cli._decks import after_result, read_problem
     from mouse_cli.cli._terminal import deliver, warn

@@ -27,7 +27,7 @@ def programs() -> dict[str, Any]:
 
 def head(revision: Revision, comment: str) -> Iterator[str]:
     """The lines that say what the file is, and what of the revision it does not hold."""
-    yield f"{comment} Revised by mouse: {revision.title} ({revision.source})"
+    yield f"{comment} Written by mouse: {revision.title} ({revision.source})"
     yield f"{comment} units: {revision.units or 'those of the deck'}; new elements count from {revision.first}"
     parts = (part.note for part in (*revision.sets, *revision.supports, *revision.thicknesses))
     yield from (f"{comment} not written: {line}" for line in (*revision.unwritten, *parts))
