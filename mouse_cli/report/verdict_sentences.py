@@ -8,13 +8,13 @@ from mouse_cli.model.shared_place import at_one_place
 from mouse_cli.report.field_words import field_acts, field_sentences
 from mouse_cli.report.sections._diagnosis_wording import (
     called,
-    companion,
     companions,
     grouped,
     in_common,
     inside,
     lacking,
     leaders,
+    of_groups,
     p_value,
     probable,
     rivals_of_site,
@@ -116,11 +116,11 @@ def _companions(found: Diagnosis) -> str:
         held = found.held_out
         unseen = "what the deck holds out" if held.kind == BY_DECK else "modes as the others predict them"
         return (
-            f"What acts beside it is open: {companion(found, groups)} beside it explains what was fitted, and fails on {unseen} "
+            f"What acts beside it is open: {of_groups(found, groups)} beside it explains what was fitted, and fails on {unseen} "
             f"({p_value(held.p)})."
         )
     if groups != "none" and p >= _SURE:
-        return f"Beside it acts {companion(found, groups)} ({with_p(p)}), and the test does not settle where."
+        return f"Beside it acts {of_groups(found, groups)} ({with_p(p)}), and the test does not settle where."
     return f"What acts beside it is open: {companions(found)}."
 
 
@@ -195,8 +195,9 @@ def _separating(found: Diagnosis) -> str:
         best = max(found.proposals, key=lambda each: each.separation)
         tried = f"the best, {best.text}, has a predicted separation of {separation(best.separation)}"
         if best.promise:  # it tells the leading one from another than the next
-            first, second = found.proposals[0].between
-            tells = f"{best.text} separates {first} from {best.between[1]} (predicted separation {separation(best.separation)})"
+            words = (lambda text: of_groups(found, text)) if found.placed else str  # what is between is groups, or sites
+            first, second, other = map(words, (*found.proposals[0].between, best.between[1]))
+            tells = f"{best.text} separates {first} from {other} (predicted separation {separation(best.separation)})"
             return f"No measurement that was tried separates {first} from {second}; {tells}."
         return f"None of the measurements that were tried will settle it; {tried}."
     return f"Measure this {aim}: {best.text} (predicted separation {separation(best.separation)}, {best.outlook})."

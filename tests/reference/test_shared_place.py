@@ -70,6 +70,22 @@ def test_the_verdict_says_where_to_look_and_what_tells_some_of_them_apart():
     )
 
 
+def test_groups_that_a_measurement_tells_apart_are_called_by_their_names():
+    """Keys of groups stand in tables; a sentence has words."""
+    of = lambda key, title, p: Explanation((Cause(key, key, title, brace(1, 5), ()),), 20.0, 20, 0.5, 0.0, np.zeros(2), p)
+    told = (of("ground-spring", "an inclined spring", 0.5), of("mass", "a lumped mass", 0.3), of("brace", "a spring between", 0.2))
+    measured = (
+        Proposal("the frequency of mode 9", ("ground-spring", "mass"), 0.2),
+        Proposal("a sensor more", ("ground-spring", "brace"), 6.0, Effort.SENSOR),
+    )
+    problem = SimpleNamespace(mesh=MESH, units=Units("m", "kg", "N"))
+    groups = tuple((one.group, one.probability) for one in told)
+    assert sentences(Diagnosis(problem, ONE_OF, None, None, told, groups, proposals=measured))[-1] == (
+        "No measurement that was tried separates a spring to the ground from an added mass; a sensor more separates a spring to the "
+        "ground from a spring between (predicted separation 6.0)."
+    )
+
+
 def test_what_is_named_in_a_line_of_panels_joins_two_of_their_nodes():
     cause = Cause("brace", "brace", "a spring between two points", brace(1, 5), ())
     told = Explanation((cause,), 20.0, 20, 0.5, 0.0, np.zeros(2), 1.0, (((brace(2, 4),), 0.4),))

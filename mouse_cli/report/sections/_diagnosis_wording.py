@@ -140,14 +140,14 @@ def _in_groups(one: Explanation) -> str:
 
 def companions(found: Diagnosis) -> str:
     """Groups of what may act beside what is certain, and the probability of each."""
-    each = ((companion(found, groups), p) for groups, p in found.certain.companions if p >= LEAST)
+    each = ((of_groups(found, groups), p) for groups, p in found.certain.companions if p >= LEAST)
     return ", ".join(f"{words} {probable(p)}" for words, p in each)
 
 
-def companion(found: Diagnosis, groups: str) -> str:
-    """Groups of what acts beside what is certain, in words."""
-    title = {cause.group: cause.title for one in reversed(found.explanations) for cause in one.causes}
-    of = lambda group: TITLES.get(group, title[group]) if group != "none" else "nothing"
+def of_groups(found: Diagnosis, groups: str) -> str:
+    """Groups, joined as `Explanation.group` joins them, in words."""
+    title = {cause.group: cause.title for one in reversed(found.explanations) for cause in one.causes} | {"none": "nothing"}
+    of = lambda group: TITLES.get(group, title.get(group, group))
     return counted([of(each) for each in groups.split(" + ")])
 
 
@@ -158,6 +158,12 @@ def within(explanations: Sequence[Explanation], one: Explanation) -> str:
     >>> both = of("crack", "an open crack", 0.6), of("stiffness-loss", "a softer part", 0.3)
     >>> grouped(both, both[0]), within(both, both[0]), within(both[:1], both[0])
     ('a local loss of stiffness', 'an open crack 0.67, a softer part 0.33', '')
+
+    A member that is called as its group is called so too, whatever its key:
+
+    >>> near = of("ground-spring", "a spring to the ground", 0.5), of("brace", "a spring between two points", 0.5)
+    >>> within(near, near[0])
+    'a spring to the ground 0.50, a spring between two points 0.50'
 
     Of the signs of one law that is called which is the most probable:
 
@@ -177,8 +183,7 @@ def inside(found: Diagnosis) -> str:
 def _members(explanations: Sequence[Explanation], listed: Sequence[tuple[str, float]]) -> str:
     found = [(physics, p) for physics, p in listed if p >= LEAST]
     title = {cause.physics: cause.title for each in reversed(explanations) for cause in each.causes}
-    named = lambda key: key if title[key] in TITLES.values() else title[key]
-    words = lambda physics: counted([named(key) for key in physics.split(" + ")])
+    words = lambda physics: counted([title[key] for key in physics.split(" + ")])
     return ", ".join(f"{words(physics)} {probable(p)}" for physics, p in found) if len(found) > 1 else ""
 
 
