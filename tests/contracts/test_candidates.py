@@ -515,9 +515,15 @@ def test_what_was_found_is_what_is_estimated_next(models, name, key, value):
 
 
 def test_a_member_that_is_gone_is_called_missing(models):
-    """With its mass, and next to all of it: one that only lost its stiffness, or half of both, is softer."""
+    """With its mass, and next to all of it: one that only lost its stiffness, or half of both, is softer.
+
+    At one place they are told apart in words.
+    """
     model = models["frame"]
-    found = {recipe.site(recipe.grid[0]).text.endswith("its mass alike"): recipe for recipe in model.recipes(registry()["member"])}
+    every = [(recipe.site(recipe.grid[0]).text, recipe) for recipe in model.recipes(registry()["member"])]
+    places = [text.rpartition(", its ")[::2] for text, _ in every]
+    assert {which for place, which in places if place == places[0][0]} == {"stiffness alone", "mass alike"}
+    found = {text.endswith("its mass alike"): recipe for text, recipe in every}
     titles = {(alike, share): one.title(np.array([share])) for alike, one in found.items() for share in (0.5, 0.995)}
     assert titles == {(False, 0.5): "", (False, 0.995): "", (True, 0.5): "", (True, 0.995): "a missing member"}
 

@@ -346,7 +346,7 @@ def test_a_member_that_is_gone_is_gone_at_any_modulus_and_density(alike):
     test = measured(K, M, free, np.array([6, 7, 12, 13, 25]), 5, seed=2)
     deck = assemble(yaml_deck.read(model(points, joins, *BAR, "    supports: {1: all, 4: all}\n") + test, "deck.yaml"))
     there = reduced(deck, deck.prior.mean)
-    text = "element 5, its mass alike" if alike else "element 5"
+    text = f"element 5, its {'mass alike' if alike else 'stiffness alone'}"
     recipe = next(one for one in there.recipes(registry()["member"]) if one.site(one.grid[0]).text == text)
     lost = Model(there, (recipe,))
     x = np.concatenate([np.array([-1.5, -2.0]), recipe.bounds[:, 1] if alike else [np.log(0.98)]])

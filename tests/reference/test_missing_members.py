@@ -152,7 +152,7 @@ test:
     assert study.coarse.model.r < study.model.r
     found = []
     for each in (study, study.coarse):
-        (recipe,) = [one for one in each.recipes("member") if one.site(one.grid[0]).text == "element 16"]
+        (recipe,) = [one for one in each.recipes("member") if one.site(one.grid[0]).text == "element 16, its stiffness alone"]
         x = np.concatenate([np.zeros(each.k), recipe.coordinates(np.array([0.9]))])
         found.append(each.kind(each.model, (recipe,)).point(x).eigenvalues[:4])
     assert found[1] == pytest.approx(found[0], rel=2e-3)

@@ -81,8 +81,8 @@ def test_groups_that_a_measurement_tells_apart_are_called_by_their_names():
     problem = SimpleNamespace(mesh=MESH, units=Units("m", "kg", "N"))
     groups = tuple((one.group, one.probability) for one in told)
     assert sentences(Diagnosis(problem, ONE_OF, None, None, told, groups, proposals=measured))[-1] == (
-        "No measurement that was tried separates a spring to the ground from an added mass; a sensor more separates a spring to the "
-        "ground from a spring between (predicted separation 6.0)."
+        "No measurement that was tried separates a spring to the ground from an added mass; a sensor more separates a spring to "
+        "the ground from a spring between (predicted separation 6.0)."
     )
 
 

@@ -57,11 +57,13 @@ def of_members(model: Reduced, candidate: Candidate, sign: int = -1) -> list[Rec
         share = of_kind - float(np.log(1 + heavy))
         beyond, made = _beyond(model, member, sets, sign), []
         if member.elements not in bare:
-            made.append(_recipe(candidate, member, (sign * K, beyond), None, sign, share, model.problem))
+            words = ", its stiffness alone" * heavy
+            made.append(_recipe(candidate, member, (sign * K, beyond), None, sign, share, model.problem, words))
         if heavy:
             most = np.inf if sign > 0 else _BALANCED
             alike = beyond and (lambda share, beyond=beyond, most=most: beyond(min(share, most)))
-            made.append(_recipe(candidate, member, (sign * K, alike), sign * M, sign, share, model.problem))
+            of = (sign * K, alike), sign * M
+            made.append(_recipe(candidate, member, *of, sign, share, model.problem, ", its mass alike"))
         recipes += [replace(each, grows=growth.of(member.elements)) for each in made]
     return recipes
 
@@ -163,11 +165,12 @@ def _recipe(
     sign: int,
     share: float,
     deck: Problem,
+    words: str,
 ) -> Recipe:
-    """stiff: K that is added for a share of 1, and what goes beyond it; M: for a share of 1."""
+    """stiff: K that is added for a share of 1, and what goes beyond it; M: for a share of 1. words: which of both it is."""
     K, beyond = stiff
-    d, site = _GAINED if sign > 0 else _LOST if M is None else _GONE, member.site
-    kind, beside = deck.mesh.elements[member.elements[0][0]].type, "" if M is None else ", its mass alike"
+    d, site = _GAINED if sign > 0 else _LOST if M is None else _GONE, replace(member.site, text=member.site.text + words)
+    kind, named = deck.mesh.elements[member.elements[0][0]].type, member.site.text if M is None else site.text
     numbers = [int(deck.mesh.elements[s].ids[i]) for s, i in member.elements]
 
     def change(values: np.ndarray) -> Change:
@@ -179,11 +182,10 @@ def _recipe(
         edit = Edit(problem)
         own = [edit.element(number) for number in numbers]
         names = _SECTIONS[kind] if M is not None else _stiff(edit, own, kind)
-        what = f"left of {site.text}" if sign < 0 else f"of {site.text}, strengthened"
+        what = f"left of {named}" if sign < 0 else f"of {named}, strengthened"
         edit.bind(f"{'section' if M is not None else 'stiffness'} {what}", own, names, factor=1 + sign * values[0])
         return edit.done()
 
-    site = site if M is None else site.__class__(site.kind, site.ids, site.position, site.text + beside)
     return Recipe(
         candidate,
         (d,),
