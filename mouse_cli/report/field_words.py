@@ -156,4 +156,7 @@ def held_words(held: HeldOut | None) -> str:
     if before.rms_frequency_error != before.rms_frequency_error:
         return f"{_TOGETHER} {density.replace('from', 'of held-out data goes from', 1)}."
     errors = f"from {100 * before.rms_frequency_error:.2g} % to {100 * after.rms_frequency_error:.2g} %"
-    return f"{_TOGETHER} the rms frequency error of held-out data goes {errors}, and {density}."
+    if not after.rms_frequency_error > before.rms_frequency_error:
+        return f"{_TOGETHER} the rms frequency error of held-out data goes {errors}, and {density}."
+    wider = ", as less accuracy is claimed" if after.log_predictive_density > before.log_predictive_density else ""
+    return f"{_TOGETHER} held-out data are predicted no better: their rms frequency error goes {errors}, and {density}{wider}."

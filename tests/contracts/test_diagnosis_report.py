@@ -5,13 +5,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from diagnosis_examples import DIAGNOSES, named
+from diagnosis_examples import DIAGNOSES, held_out, named
 from test_sections import plain_python, valid
 
 from mouse_cli import report
 from mouse_cli._errors import MouseError, WrittenError
 from mouse_cli.model.diagnosis import NAMED, NOTHING, ONE_OF, UNKNOWN, Certain, Choices, Diagnosis, Site
 from mouse_cli.plots import draw, registry, require
+from mouse_cli.report.field_words import held_words
 from mouse_cli.report.renderers.printout import WIDTH
 from mouse_cli.report.section import Options, sections
 from mouse_cli.report.section import registry as every_section
@@ -315,3 +316,18 @@ def test_one_mechanism_that_is_named_is_not_said_to_act_at_several_sites():
     first = replace(two.best, causes=two.best.causes[:1])
     one = replace(two, explanations=(first, *two.explanations[1:]), groups=((first.group, 0.99), *two.groups[1:]))
     assert "at several sites" in _told(two) and "at several sites" not in _told(one)
+
+
+@pytest.mark.parametrize(("error", "density", "words"), [
+    (0.004, 12.0, "the rms frequency error of held-out data goes from 10 % to 0.4 %, and the log predictive density from -340.0 to "
+                  "12.0."),
+    (0.2, 12.0, "held-out data are predicted no better: their rms frequency error goes from 10 % to 20 %, and the log predictive "
+                "density from -340.0 to 12.0, as less accuracy is claimed."),
+    (0.2, -400.0, "held-out data are predicted no better: their rms frequency error goes from 10 % to 20 %, and the log predictive "
+                  "density from -340.0 to -400.0."),
+])  # fmt: skip
+def test_an_error_that_rises_is_no_merit(error, density, words):
+    """The density gains where a prediction claims less accuracy than the model as it is."""
+    held = held_out(error)
+    held = replace(held, revised=replace(held.revised, log_predictive_density=density))
+    assert held_words(held) == f"By all hypotheses together, each with its probability, {words}"

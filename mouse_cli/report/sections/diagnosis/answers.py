@@ -267,8 +267,8 @@ def _errors(base: Score, after: Score | None = None) -> Iterator[str]:
     ):
         before, now = (None if score is None else 100 * getattr(score, of) for score in (base, after))
         if before == before:
-            change = f"is {before:.2g} %" if now is None else f"goes from {before:.2g} % to {now:.2g} %"
-            yield f"the rms {name} {change}"
+            goes = "is" if now is None else f"{'rises' if now > before else 'goes'} from"
+            yield f"the rms {name} {goes} {before:.2g} %{'' if now is None else f' to {now:.2g} %'}"
 
 
 def _proof(found: Diagnosis, held: HeldOut) -> str:
