@@ -126,12 +126,12 @@ def _most(field: Field) -> str:
 
     >>> from mouse_cli.model.site import Site
     >>> _most(Field(STIFFNESS, (FieldValue(Site("element", (4,)), 2e-10, 0.055),), 0.1, 1.0, "m", 9.0))
-    ', nowhere by more than two standard deviations'
+    ', but nothing shows where: no value differs from 0 by more than two standard deviations'
     """
     if not field.values:
         return ""
     if not any(each.shown for each in field.values):
-        return ", nowhere by more than two standard deviations"
+        return ", but nothing shows where: no value differs from 0 by more than two standard deviations"
     first, top, last = core(field.values, field.property in (STIFFNESS, MASS))
     largest = field.values[top]
     sized = f"{amount(field, largest.value)}, sd {amount(field, largest.sd)}"
