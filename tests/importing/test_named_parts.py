@@ -11,6 +11,7 @@ from mouse_cli import DeckError, diagnose, read_deck, write_deck
 from mouse_cli.diagnosis.cautions import on_set
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
+from mouse_cli.diagnosis.likelihoods.modal.sets import sets_in
 from mouse_cli.diagnosis.mechanisms import registry
 from mouse_cli.model.arrays import dense
 from mouse_cli.model.diagnosis import Choices, Site
@@ -158,14 +159,17 @@ def test_what_is_missing_follows_the_parameters_from_where_it_was_weighed(tmp_pa
         assert np.allclose(slope[:8], moved / 2e-5, rtol=1e-4, atol=1e-5 * np.abs(slope).max())
 
 
-def chain(folder: Path, K: np.ndarray, M: np.ndarray, sets: dict[str, tuple[np.ndarray, np.ndarray]]) -> None:
-    """The deck of a chain with K and M of its sets; its one parameter is the stiffness of the first."""
+def chain(
+    folder: Path, K: np.ndarray, M: np.ndarray, sets: dict[str, tuple[np.ndarray, np.ndarray]], gone: tuple[str, ...] = ()
+) -> None:
+    """The deck of a chain with K and M of its sets; its parameter is the stiffness of the first. Its test: without those gone."""
     n, first = len(K), next(iter(sets))
     whole = {"K": K, "M": M} | {f"{x}_{name}": each[i] for name, each in sets.items() for i, x in enumerate("KM")}
     for name, matrix in whole.items():
         save_npz(folder / f"{name}.npz", csr_matrix(matrix))
     sensors = range(5, min(n, 240), 20)
-    w, V = eigh(K, M, subset_by_index=[0, 5])
+    there = (whole - sum(sets[name][i] for name in gone) for i, whole in enumerate((K, M)))
+    w, V = eigh(*there, subset_by_index=[0, 5])
     rows = "".join("      - [" + ", ".join(f"{v:.6f}" for v in V[i]) + "]\n" for i in sensors)
     listed = "".join(f"    {one}: {{stiffness: {{file: K_{one}.npz}}, mass: {{file: M_{one}.npz}}}}\n" for one in sets)
     (folder / "chain.yaml").write_text(
@@ -200,6 +204,26 @@ def test_few_coordinates_hold_what_a_large_model_does_without_a_set(tmp_path):
     chain(tmp_path, frame + brace, np.eye(240) + light, {"BRACE": (brace, light)})
     found = in_few(tmp_path, "member", 0, 1 - 1e-9, 0.9)
     assert np.allclose(found, eigh(frame, np.eye(240), subset_by_index=[0, 5], eigvals_only=True), rtol=1e-4)
+
+
+def test_few_coordinates_hold_the_modes_without_all_sets_that_the_test_misses(tmp_path):
+    """Two of four ribs of a net, side by side: what vibrates between those that stay does so in no structure without one alone."""
+    a, b = 24, 30
+    M, K = np.eye(a * b), np.kron(np.eye(a), coupled(b, np.full(b, 1e6))) + np.kron(coupled(a, np.full(a, 1e6)), np.eye(b))
+    on = [np.diag((np.arange(b) == column).astype(float)) for column in (5, 11, 17, 23)]
+    ribs = {
+        f"RIB_{i}": (np.kron(coupled(a, np.full(a, 1e8)), at), np.kron(np.eye(a), 0.5 * at)) for i, at in enumerate(on)
+    }
+    whole = [each + sum(own[i] for own in ribs.values()) for i, each in enumerate((K, M))]
+    gone = ("RIB_1", "RIB_2")
+    chain(tmp_path, *whole, ribs, gone)
+    problem = read_deck(tmp_path / "chain.yaml")
+    model = reduced(problem, problem.prior.mean)
+    lost = [dict(zip(ribs, sets_in(model, name).projected, strict=True)) for name in "KM"]
+    few = [np.diag(model.eigenvalues) - sum(lost[0][name] for name in gone), np.eye(model.r) - sum(lost[1][name] for name in gone)]
+    right = [each - sum(ribs[name][i] for name in gone) for i, each in enumerate(whole)]
+    found, exact = (eigh(*each, subset_by_index=[0, 5], eigvals_only=True) for each in (few, right))
+    assert np.allclose(found, exact, rtol=1e-3)
 
 
 def test_what_is_left_of_a_missing_set_is_more_than_rounding(tmp_path):

@@ -1,5 +1,6 @@
 """Motions that a structure without one of its element sets has, and that few coordinates of the whole one would not hold."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,8 +12,10 @@ from mouse_cli.model.arrays import Matrix
 from mouse_cli.model.problem import Problem
 
 MOST_OF_SETS = 180  # coordinates for them
-_STATES = (  # shares of K and M of a set that are taken away, those that matter most first
-    (1 - 1e-6, 1 - 1e-9),  # missing: its own motions stay finite, far above those of the rest
+MOST_OF_SEVERAL = 40  # and for those without several at once
+MISSING = (1 - 1e-6, 1 - 1e-9)  # shares of K and M of a set: its own motions stay finite, far above those of the rest
+_STATES = (  # such shares that are taken away, those that matter most first
+    MISSING,
     (0.95, 0.0),  # soft and as heavy as it was: its own motions are among the lowest
     (0.8, 0.8),
 )
@@ -81,7 +84,7 @@ def without_sets(
     one that is soft and heavy has low modes of its own, and as a whole.
     """
     problem, of = model.problem, [sets_in(model, name) for name in "KM"]
-    factors, least = [each.factors(model) for each in of], 2 * _SHORT * float(model.data.sd_log.min())
+    factors, least = [each.factors(model) for each in of], _least(model)
     found: list[tuple[int, float, np.ndarray]] = []
     for i in range(len(problem.groups)):
         given, whole = ([each.stored[i] for each in of], [each.missing[i] for each in of])
@@ -100,6 +103,26 @@ def without_sets(
         found = sorted(found, key=lambda each: each[:2])[:MOST_OF_SETS]
     X = np.array([row for *_, row in found]).reshape(len(found), K.shape[0])
     return X, _energetic(K, M, sigma, X)
+
+
+def without_several(
+    model: Reduced, K: Matrix, M: Matrix, sigma: float, V: np.ndarray, last: int, sets: Sequence[tuple[int, ...]]
+) -> tuple[np.ndarray, np.ndarray]:
+    """The same of the modes without several sets at once, by their numbers."""
+    of, blocks = [sets_in(model, name) for name in "KM"], [V]
+    for numbers in sets:
+        lost = [
+            share * sum(by[i] * (each.stored[i] if of[0].missing[i] is None else each.missing[i]) for i in numbers)
+            for share, each, by in zip(MISSING, of, (each.factors(model) for each in of), strict=True)
+        ]
+        blocks.append(_apart(K, M, sigma, lost, blocks, last, _least(model))[1])
+    X = np.concatenate(blocks[1:] or [np.zeros((0, K.shape[0]))])[:MOST_OF_SEVERAL]
+    return X, _energetic(K, M, sigma, X)
+
+
+def _least(model: Reduced) -> float:
+    """Relative error of an eigenvalue that matters beside the most accurate frequency of the test."""
+    return 2 * _SHORT * float(model.data.sd_log.min())
 
 
 def _energetic(K: Matrix, M: Matrix, sigma: float, X: np.ndarray) -> np.ndarray:

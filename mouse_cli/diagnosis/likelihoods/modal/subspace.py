@@ -11,9 +11,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from mouse_cli.diagnosis.likelihoods.modal.absent import absent_together
 from mouse_cli.diagnosis.likelihoods.modal.directions import directions
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced, built
-from mouse_cli.diagnosis.likelihoods.modal.sets import MOST_OF_SETS, without_sets
+from mouse_cli.diagnosis.likelihoods.modal.sets import MOST_OF_SETS, MOST_OF_SEVERAL, without_sets, without_several
 from mouse_cli.diagnosis.localise.force import matched
 from mouse_cli.diagnosis.localise.heavier import MOST as MOST_OF_NODES
 from mouse_cli.diagnosis.localise.heavier import heavier
@@ -52,7 +53,7 @@ class Basis:
         theta, S, _ = solution.space.ritz()
         kept = min(max(last + 10, 3 * (last + 10) // 2, 30), _MODES, int((theta > INFINITE * theta[0]).sum()))
         modes = S[:, :kept].T @ solution.space.V[: solution.space.reached]
-        self.space = Krylov(operator, _MOST + 20 + MOST_OF_NODES + (MOST_OF_SETS if problem.groups else 0))
+        self.space = Krylov(operator, _MOST + 20 + MOST_OF_NODES + (MOST_OF_SETS + MOST_OF_SEVERAL if problem.groups else 0))
         self.space.append(modes, np.ascontiguousarray((K @ modes.T - self.sigma * (M @ modes.T)).T))
         self._T = np.zeros((0, 0))
         self.responses(np.zeros((K.shape[0], 0)))
@@ -142,6 +143,9 @@ def large(
     if problem.groups:
         basis.motions(*without_sets(model, K, M, basis.sigma, basis.space.V, last))
     model = built(problem, total, theta, *basis.orthonormal(K), by, stack)
+    if several := absent_together(model):
+        basis.motions(*without_several(model, K, M, basis.sigma, basis.space.V, last, several))
+        model = built(problem, total, theta, *basis.orthonormal(K), by, stack)
     lowest = model.V[:, : min(model.r, last + 2)]
     by_all = static(problem, model.motion, model.bars, basis.sigma, basis.space.operator.columns, lowest)
     return replace(model, places=np.sort(places), static=by_all)
