@@ -7,7 +7,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.effects.element_sets import text
 from mouse_cli.diagnosis.explained import acting
-from mouse_cli.diagnosis.gates import GATE
+from mouse_cli.diagnosis.gates import GATE, ODDS
 from mouse_cli.diagnosis.likelihoods.modal.accuracy import Doubt, scatter
 from mouse_cli.diagnosis.likelihoods.modal.mixed import mixed
 from mouse_cli.diagnosis.likelihoods.modal.repeated import exchanged, repeated
@@ -50,16 +50,19 @@ _TOLD = {
 
 def misstated(ranking: Ranking) -> str | None:
     """Key of the error that explains the data better than the accuracies of the deck do; None where those may be right."""
-    if ranking.noise_scale > NOISY:
-        return _SCATTER if _scattered(ranking) else None
-    found = _doubts(ranking)
-    return found[0].key if sum(each.probability for each in found) > _PROBABLE else None
+    found = _doubts(ranking) if ranking.noise_scale <= NOISY else []
+    if sum(each.probability for each in found) > _PROBABLE:
+        return found[0].key
+    return _SCATTER if _scattered(ranking) else None
 
 
 def _scattered(ranking: Ranking) -> bool:
-    """Whether more scatter than stated explains the data better than whatever has a name or none."""
-    name, probability = ranking.groups[0]
-    return name == "none" and probability > _PROBABLE and ranking.noise_scale <= LOUD
+    """Whether more scatter than stated, and no parameter far from its prior, explains the data better than whatever has a name or
+    none: no mechanism, many of which may share what probability is left, has ODDS over it.
+    """
+    (name, probability), one = ranking.groups[0], ranking.baseline
+    leads = name == "none" and (probability > _PROBABLE or float(ranking.log_odds.max()) <= ODDS)
+    return leads and ranking.noise_scale <= LOUD and upper_tail(one.misfit, one.dof) < GATE
 
 
 def _doubts(ranking: Ranking) -> list[Doubt]:
@@ -146,7 +149,7 @@ def _errors(ranking: Ranking, verdict: Verdict) -> Iterator[str]:
 
 def _noise(ranking: Ranking) -> Iterator[str]:
     """What the accuracies would have to be for the best explanation to be right."""
-    if ranking.noise_scale > NOISY:
+    if ranking.noise_scale > NOISY or _scattered(ranking):
         best = min((one for one in ranking.fits if one.dof > 0), key=lambda one: one.misfit / one.dof)
         named = [each for each in zip(("frequencies", "shapes"), scatter(best), strict=True) if np.isfinite(each[1])]
         parts, left = " and ".join(f"{name} {factor:.2g} times" for name, factor in named), sqrt(best.misfit / best.dof)

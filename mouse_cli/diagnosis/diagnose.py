@@ -77,7 +77,7 @@ def by_its_modes(measured: Measured, notice: Notice, choices: Choices) -> tuple[
     result, remarks = _update(problem, first.kept, notice, _guess(model), enough, first.solver)
     ranking = rank(model, _known(choices), choices.causes, measured.ranked, jobs=choices.jobs, again=partial(again, problem))
     ranking = with_forms(informed(ranking))
-    verdict, as_it_is = judge(ranking, measured.modes and _rejected(result, model, ranking), model), ranking.baseline
+    verdict, as_it_is = judge(ranking, measured.modes and _shifted(ranking.baseline), model), ranking.baseline
     kind, best, missing = verdict.kind, verdict.best, verdict.kind != NOTHING
     location = locate(as_it_is.model.base) if missing and as_it_is.model.base.data.by_shape else None
     deck, of_deck, unfit = _extended(problem, verdict.put)
@@ -118,13 +118,9 @@ def _extended(problem: Problem, put: Fit | None) -> tuple[Problem | None, np.nda
         return None, None, ("no deck with the change in it: at its mean value the matrices are not those of a structure",)
 
 
-def _rejected(result: Result, model: Reduced, ranking: Ranking) -> bool:
-    """Whether the update of the model as it is rejects it. Of a mesh too coarse for the test that says nothing of physics: the fit
-    that is corrected for it judges, by its misfit, innovation and all, and here by the shift of its parameters.
-    """
-    if model.finer is None:
-        return result.rejected
-    z = ranking.baseline.point.x[: ranking.baseline.model.k]
+def _shifted(baseline: Fit) -> bool:
+    """Whether the parameters of the model as it is had to move farther from their prior than chance moves them."""
+    z = baseline.point.x[: baseline.model.k]
     return len(z) > 0 and upper_tail(float(z @ z), len(z)) < GATE
 
 

@@ -30,9 +30,9 @@ _MAJORITY = 0.5  # probability of what has no name, from which on it is more pro
 _STANDS = 1e-6  # probability of no mechanism below which some mechanism acts, whatever errors the test has
 
 
-def doubtful(baseline: Fit, rejected: bool) -> bool:
-    """Whether what the update leaves is no chance: misfit, shift of the parameters, or both together (`rejected`)."""
-    return rejected or baseline.strained or upper_tail(baseline.misfit, baseline.dof) < GATE
+def doubtful(baseline: Fit, shifted: bool) -> bool:
+    """Whether what the update leaves is no chance: misfit, one parameter far from its prior, or all together (`shifted`)."""
+    return shifted or baseline.strained or upper_tail(baseline.misfit, baseline.dof) < GATE
 
 
 @dataclass(frozen=True)
@@ -66,9 +66,9 @@ class Verdict:
         return None if self.certain is None else self.certain.which
 
 
-def judge(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:
+def judge(ranking: Ranking, shifted: bool, model: Reduced) -> Verdict:
     """What may be said of all fits; one of several predicts as all hypotheses together do."""
-    found = _judged(ranking, rejected, model)
+    found = _judged(ranking, shifted, model)
     if found.kind != ONE_OF:
         return found
     proof = found.proof and (averaged(model, ranking) or found.proof)
@@ -81,8 +81,8 @@ def _rival_field(ranking: Ranking) -> Fit | None:
     return max(fields, key=lambda each: each[0])[1] if sum(p for p, _ in fields) > _MAJORITY else None
 
 
-def _judged(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:
-    """The same: by their evidence, and by data that none of them has seen; rejected: by the update itself.
+def _judged(ranking: Ranking, shifted: bool, model: Reduced) -> Verdict:
+    """The same: by their evidence, and by data that none of them has seen; shifted: its parameters moved too far.
 
     Something is missing where the update leaves too much, where the model as it is is improbable (DEMANDED), or where some
     mechanism is sure and what the deck holds out confirms it. Where none of that holds and yet the model as it is is not probable
@@ -95,7 +95,7 @@ def _judged(ranking: Ranking, rejected: bool, model: Reduced) -> Verdict:
     baseline, best, none = ranking.baseline, leader(ranking), dict(ranking.groups).get("none", 0.0)
     believed = ranking.stated[0] >= _BELIEVED
     shown = believed and (not ranking.fits[0].nameless or significant(ranking.fits[0]))
-    demanded = doubtful(baseline, rejected) or (baseline.telling and none < GATE) or (shown and none < DEMANDED)
+    demanded = doubtful(baseline, shifted) or (baseline.telling and none < GATE) or (shown and none < DEMANDED)
     likely = best is not None and shown and none <= LIKELY
     asked = demanded or likely or (believed and best is not None and _odds(ranking, best) > 0)
     proof = held_out(model, baseline, best if asked else None)
