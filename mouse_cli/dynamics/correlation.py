@@ -46,10 +46,10 @@ def distance(likeness: np.ndarray, test_hz: np.ndarray, hz: np.ndarray, most: fl
 
 
 def pair(test_shapes: np.ndarray, test_hz: np.ndarray, shapes: np.ndarray, hz: np.ndarray) -> np.ndarray:
-    """Index (m,) of the model mode that each measured mode is: the assignment of least total `distance`, complete.
+    """Index (m,) of the model mode that each measured mode is: the assignment of least total `distance`; k: it is none.
 
-    Shapes decide where they can, frequencies where shapes are alike. test_shapes (s, m), test_hz (m,) may hold NaN;
-    shapes (s, k), hz (k,).
+    It is complete where the model has no fewer modes. Shapes decide where they can, frequencies where shapes are alike.
+    test_shapes (s, m), test_hz (m,) may hold NaN; shapes (s, k), hz (k,).
     """
     return paired(distance(_with_double(mac(test_shapes, shapes), test_shapes, shapes, hz), test_hz, hz))
 
@@ -114,15 +114,20 @@ class Measured:
 
 
 def paired(apart: np.ndarray) -> np.ndarray:
-    """Column (m,) of each row of `apart` (m, k) so that their sum is least and no two are the same; of k rows where k < m."""
+    """Column (m,) of each row of `apart` (m, k) so that their sum is least and no two are the same;
+    k, which is none, of a row that is left over where k < m.
+    """
     if not apart.size:
-        return np.zeros(0, int)
+        return np.full(len(apart), apart.shape[1])
     nearest = apart.argmin(axis=1)
     if len(set(nearest.tolist())) == len(nearest):  # no two want the same one: nothing to settle
         return nearest
     from scipy.optimize import linear_sum_assignment
 
-    return linear_sum_assignment(apart)[1]
+    rows, columns = linear_sum_assignment(apart)
+    found = np.full(len(apart), apart.shape[1])
+    found[rows] = columns
+    return found
 
 
 def match(apart: np.ndarray, limit: float = LIKELY) -> np.ndarray:

@@ -77,7 +77,10 @@ def test_the_assignment_is_that_of_scipy(seed, m, k, crowded):
     apart = rng.random((m, k))
     if crowded:  # all rows want much the same columns
         apart = apart[:1] + 0.05 * rng.random((m, k))
-    np.testing.assert_array_equal(paired(apart), linear_sum_assignment(apart)[1])
+    rows, columns = linear_sum_assignment(apart)
+    found = paired(apart)
+    np.testing.assert_array_equal(found[rows], columns)
+    assert (np.delete(found, rows) == k).all() and len(found) == m  # of fewer columns than rows: k, which is none
 
 
 @given(seeds)

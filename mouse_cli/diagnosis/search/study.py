@@ -129,12 +129,14 @@ class Study(Looks):
     def about(self, one: Fit) -> "Study":
         """The same at parameters from which those of a fit differ by no more than a trifle.
 
-        The nearest on a grid, whatever was asked before, so that all processes of a pool weigh causes alike.
+        The nearest on a grid, whatever was asked before, so that all processes of a pool weigh causes alike; 0 is near to nothing
+        else: a mass or stiffness that is small is none that vanishes.
         """
         theta, here = one.model.base.parameters(one.point.x[: self.k]), self.model.theta
         step = 2 * MOVED * np.abs(here)
         steps = np.rint(np.divide(theta - here, step, out=np.zeros_like(step), where=step > 0))
-        near = np.where(step > 0, here + steps * step, theta)
+        near = here + steps * step
+        near = np.where((step > 0) & (near * theta > 0), near, theta)
         try:
             there = self.moved(near)
         except (IndefiniteError, np.linalg.LinAlgError):

@@ -63,7 +63,8 @@ def _missed(at: Point, held: Data | None) -> Missed:
     between = (at.eigenvalues > _RIGID * measured.min()) & (at.eigenvalues < measured.max())
     between[at.modes] = False
     if held is not None:
-        between[held.pair(at.eigenvalues, at.seen)] = False
+        others = held.pair(at.eigenvalues, at.seen)
+        between[others[others < len(between)]] = False
     return np.sqrt(at.eigenvalues[between]) / (2 * np.pi), size[between] / np.median(size[at.modes]) / _VISIBLE
 
 
