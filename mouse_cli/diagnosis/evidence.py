@@ -34,7 +34,7 @@ def root(hessian: np.ndarray, width: np.ndarray) -> np.ndarray:
 
 def laplace(misfit: float, hessian: np.ndarray, width: np.ndarray) -> float:
     """ln Z for C = `misfit`, H = `hessian` (k + d, k + d) and widths (d,) of the ranges of the last d unknowns."""
-    size = _log_determinant(capped(hessian, width))
+    size = log_determinant(hessian, width)
     return float(-0.5 * misfit - np.log(width).sum() + 0.5 * len(width) * np.log(2 * np.pi) - 0.5 * size)
 
 
@@ -64,12 +64,14 @@ def marginal(residual: np.ndarray, root: np.ndarray) -> tuple[float, float]:
     return float(residual @ residual - known**2 @ (s**2 / (1 + s**2))), float(np.log1p(s**2).sum())
 
 
-def _log_determinant(H: np.ndarray) -> float:
-    """ln |H| of a positive definite matrix; infinite where it has no numbers.
+def log_determinant(hessian: np.ndarray, width: np.ndarray) -> float:
+    """ln |H| of a positive definite H (k + d, k + d), the last d unknowns at most as wide as their ranges of `width` (d,); infinite
+    where it has no numbers.
 
     Of unknowns that the data hardly tell apart rounding leaves H singular, or indefinite: no evidence may come of that, so that
     in units where the diagonal is 1 no eigenvalue counts for less than rounding.
     """
+    H = capped(hessian, width)
     scale = np.sqrt(H.diagonal())
     scaled = H / np.outer(scale, scale)
     if not np.isfinite(scaled).all():

@@ -1,5 +1,6 @@
 """Laplace's evidence against integrals: exact ones of a linear model with Gaussian errors, and numerical ones of a chain."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -12,6 +13,7 @@ from mouse_cli.diagnosis.evidence import at_ends, laplace, marginal
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.search.fit import fit
+from mouse_cli.diagnosis.search.rank import ranking
 from mouse_cli.diagnosis.search.study import Study
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.parameter import Gaussian, Parameter
@@ -94,6 +96,30 @@ def test_a_share_at_an_end_survives_unknowns_that_the_data_cannot_tell_apart():
     H = 1e12 * np.ones((2, 2))
     assert np.isfinite(at_ends(np.zeros(2), H, np.ones(2), np.full(2, 0.5)))
     assert at_ends(np.zeros(1), np.array([[np.nan]]), np.ones(1), np.full(1, 0.5)) == 0.0
+
+
+@pytest.mark.parametrize("nats", [-np.inf, np.inf, np.nan])
+def test_a_fit_without_a_finite_evidence_is_none(linear, nats, monkeypatch):
+    model = linear(1)
+    known = model.point
+    monkeypatch.setattr(model, "point", lambda x: SimpleNamespace(**(vars(known(x)) | {"nats": nats})))
+    assert fit(model, np.zeros(1)) is None
+
+
+@pytest.mark.parametrize("evidence", [-np.inf, np.inf, np.nan])
+def test_what_has_no_finite_evidence_is_not_ranked(evidence):
+    """Two springs between two walls; beside the model as it is, twice the same of which one has no number."""
+    K = np.array([[2.0, -1.0], [-1.0, 2.0]])
+    hz, shapes = np.sqrt([1.0, 3.0]) / (2 * np.pi), np.array([[1.0, 1.0], [1.0, -1.0]])
+    test = ModalTest(np.array([1, 2]), hz, 0.01 * hz, np.arange(2), shapes, np.full((2, 2), 0.05))
+    row, col = np.nonzero(np.triu(K))
+    listed, prior = ListedElements(np.zeros(3, bool), row, col), Gaussian(np.ones(1), np.array([0.03**2]))
+    parameters = (Parameter("factor", 0.03, 1.0),)
+    deck = Problem("chain", Structure(K, np.eye(2)), listed, K[row, col][:, None], parameters, prior, test)
+    one = fit(Model(reduced(deck, prior.mean)), np.zeros(0))
+    found = ranking(one, [replace(one, log_evidence=evidence), one])
+    assert [each is one for each in found.fits] == [True]
+    assert found.probabilities.tolist() == [1.0] and found.groups == (("none", 1.0),)
 
 
 def test_what_the_data_do_not_feel_leaves_it_as_it_is():

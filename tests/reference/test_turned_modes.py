@@ -15,7 +15,7 @@ from mouse_cli.diagnosis.diagnose import diagnose
 from mouse_cli.diagnosis.likelihoods.modal.baseline import reduced
 from mouse_cli.diagnosis.likelihoods.modal.data import Data
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
-from mouse_cli.diagnosis.likelihoods.modal.turning import measured, turned
+from mouse_cli.diagnosis.likelihoods.modal.turning import Turn, measured, turned
 from mouse_cli.diagnosis.search import looks
 from mouse_cli.diagnosis.search.fit import fit
 from mouse_cli.diagnosis.search.study import Study
@@ -96,6 +96,15 @@ def test_what_close_modes_leave_has_the_covariance_of_their_angles(tmp_path):
     covariance = np.eye(len(r)) + J / turn.weights @ J.T
     left = turn.left(data.residual(eigenvalues[modes], measured(seen, modes, turn))[0])
     assert left @ left == pytest.approx((r + J @ t) @ np.linalg.solve(covariance, r + J @ t), rel=1e-4)
+
+
+def test_angles_of_a_mode_that_sensors_hardly_see():
+    """1/2 ln |I + J J'| is the sum of 1/2 ln (1 + s^2), s the singular values of J: here two, 1e10 and 3, and 1 / pi in all angles."""
+    rng = np.random.default_rng(2)
+    U, V = (np.linalg.qr(rng.standard_normal((n, n)))[0] for n in (7, 3))
+    J = U[:, :2] * [1e10, 3.0] @ V[:, :2].T
+    found = Turn(np.arange(2), np.eye(2), np.zeros(3), np.full(3, 1 - 2 / np.pi), J).nats
+    assert found == pytest.approx(np.log(1e10) + 0.5 * np.log(10), rel=1e-6)
 
 
 def test_modes_apart_are_predicted_as_before(tmp_path):

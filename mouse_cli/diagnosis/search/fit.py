@@ -143,12 +143,13 @@ class Fit(End):
 def fit(
     model: Model, c: np.ndarray, z: np.ndarray | None = None, most: int = MOST, reach: float = np.inf
 ) -> Fit | None:
-    """The most probable x, weighed; see `descended`."""
+    """The most probable x, weighed; None likewise where its evidence is no number. See `descended`."""
     end, H = _lowered(model, c, z, most, reach)
     if end is None:
         return None
     H = normal(model, end.point)[0] if H is None else H
-    return Fit(model, end.point, end.misfit, H, _evidence(end, H) - end.point.nats)
+    found = Fit(model, end.point, end.misfit, H, _evidence(end, H) - end.point.nats)
+    return found if np.isfinite(found.log_evidence) else None
 
 
 def descended(

@@ -238,7 +238,11 @@ def _untried(study: Study, singles: list[Fit]) -> tuple[Untried, ...]:
 
 
 def ranking(baseline: Fit, fits: list[Fit]) -> Ranking:
-    """Probabilities of `fits`; errors of the test, and noise larger than stated, are integrated out for each of them."""
+    """Probabilities of `fits`; errors of the test, and noise larger than stated, are integrated out for each of them.
+
+    One whose evidence is no finite number says nothing, and is left out.
+    """
+    fits = [one for one in fits if one is baseline or np.isfinite(one.log_evidence)]
     each = [ways(one) for one in fits]
     left = [one.dof + one.idle(scale(one.misfit, one.dof)) for one in fits]  # what is idle is fitted by no noise
     parts = [np.array([way.log_weight(dof) for way in own]) for dof, own in zip(left, each, strict=True)]

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mouse_cli.diagnosis.evidence import capped
+from mouse_cli.diagnosis.evidence import log_determinant
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
 from mouse_cli.diagnosis.likelihoods.modal.point import Point
 from mouse_cli.diagnosis.search.fit import End, Fit, descended
@@ -81,7 +81,7 @@ def beyond_linear(one: Fit, held: Model, at: Point, T: np.ndarray, misfit: float
         return None
     there = best.point.each[1]
     more = max(best.misfit - one.misfit, there.chi2)  # less only where the fit was no optimum of its own data
-    return more, -0.5 * (more + _size(both, best) - np.linalg.slogdet(capped(one.hessian, both.width))[1]) - there.nats
+    return more, -0.5 * (more + _size(both, best) - log_determinant(one.hessian, both.width)) - there.nats
 
 
 def _starts(one: Fit, held: Model, root: np.ndarray) -> list[np.ndarray]:
@@ -109,4 +109,4 @@ def _size(both: Both, end: End) -> float:
     """ln |H| of all data at a common optimum."""
     J = both.jacobian(end.point)
     H = J.T @ J + np.diag(np.arange(J.shape[1]) < both.k)
-    return float(np.linalg.slogdet(capped(H, both.width))[1])
+    return log_determinant(H, both.width)
