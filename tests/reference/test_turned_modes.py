@@ -99,7 +99,7 @@ def test_what_close_modes_leave_has_the_covariance_of_their_angles(tmp_path):
 
 
 def test_angles_of_a_mode_that_sensors_hardly_see():
-    """1/2 ln |I + J J'| is the sum of 1/2 ln (1 + s^2), s the singular values of J: here two, 1e10 and 3, and 1 / pi in all angles."""
+    """1/2 ln |I + J J'| is the sum of 1/2 ln (1 + s^2), s the singular values of J: here 1e10 and 3."""
     rng = np.random.default_rng(2)
     U, V = (np.linalg.qr(rng.standard_normal((n, n)))[0] for n in (7, 3))
     J = U[:, :2] * [1e10, 3.0] @ V[:, :2].T

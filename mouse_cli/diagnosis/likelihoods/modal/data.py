@@ -93,8 +93,8 @@ class Data:
         return float(np.sum(np.log(np.sqrt(2 * np.pi) * sd)))
 
     def pair(self, eigenvalues: np.ndarray, seen: np.ndarray) -> np.ndarray:
-        """Index (m,) of the model mode that each measured one is, for shapes `seen` (s, k): by shape, or by number; k or more of one
-        that the model has not.
+        """Index (m,) of the model mode that each measured one is, for shapes `seen` (s, k): by shape, or by number; k or more of
+        one that the model has not.
         """
         if not self.by_shape:
             return self.test.number - 1
