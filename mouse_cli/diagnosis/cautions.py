@@ -1,13 +1,13 @@
 """What an answer stands or falls with, in sentences: accuracy of the test, held-out data, the place that shapes point to."""
 
 from collections.abc import Iterable, Iterator
-from math import erfc, sqrt
+from math import sqrt
 
 import numpy as np
 
 from mouse_cli.diagnosis.effects.element_sets import text
 from mouse_cli.diagnosis.explained import acting
-from mouse_cli.diagnosis.gates import GATE, ODDS
+from mouse_cli.diagnosis.gates import GATE, ODDS, beyond
 from mouse_cli.diagnosis.likelihoods.modal.accuracy import Doubt, scatter
 from mouse_cli.diagnosis.likelihoods.modal.mixed import mixed
 from mouse_cli.diagnosis.likelihoods.modal.repeated import exchanged, repeated
@@ -25,7 +25,6 @@ from mouse_cli.updating.chi_square import upper_tail
 _PROBABLE = 0.5  # of errors of the test from which on they are the finding
 _FAR = 0.1  # of the span, between the place of a cause and the nearest one that shapes point to
 _PLAIN = 0.05  # probability of a misfit as large as that of the best single place, from which on it may be the place
-_BEYOND = 0.01  # p-value of the shifts of all parameters below which those that are beyond their priors are named
 _SMALL = 0.2  # share of all places that the 90 % region may hold to point anywhere
 _CHECK = "Check the value, or state a larger sd."
 _LEADING = 8  # explanations, by their evidence, that are asked for a parameter that strains them
@@ -183,7 +182,7 @@ def _strained(one: Fit) -> str:
     """p-value of the data alone, and which parameters are too far from their priors; empty: they are not explained, or none is."""
     base, z = one.model.base, one.point.x[: one.model.k]
     off, p = shifts(one), upper_tail(one.misfit - z @ z, max(one.dof - len(z), 1))  # of the data alone
-    chosen = [j for j, far in enumerate(off) if len(off) * erfc(abs(far) / sqrt(2)) < _BEYOND]
+    chosen = beyond(off)
     if not chosen or p < GATE:
         return ""
     prior, value = (base.parameters(at) for at in (np.zeros_like(z), z))

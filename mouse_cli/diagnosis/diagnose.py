@@ -91,7 +91,7 @@ def by_its_modes(measured: Measured, notice: Notice, choices: Choices) -> tuple[
         law=None if best is None else implied_law(best),
         held_out=verdict.proof,
         refuted=verdict.refuted,
-        cautions=cautions(ranking, verdict, location),
+        cautions=(*cautions(ranking, verdict, location), *measured.cautions(_told(ranking, verdict))),
         misstated=misstated(ranking) if missing else None,
         proposals=_proposals(ranking, verdict),
         remarks=(*measured.doubts, *remarks, *measured.remarks(ranking), *first.remarks, *unfit, *(_coarse(deck) if deck else ())),
@@ -128,6 +128,11 @@ def _tried(ranking: Ranking) -> dict[str, object]:
     """What was tried, and how probable it is."""
     common = {name: getattr(ranking, name) for name in ("groups", "noise_scale", "untried")}
     return common | {"explanations": explanations(ranking)}
+
+
+def _told(ranking: Ranking, verdict: Verdict) -> Fit:
+    """The explanation that an answer is about: none where nothing is missing, else that which leads."""
+    return ranking.baseline if verdict.kind == NOTHING else verdict.best or ranking.fits[0]
 
 
 def _open(verdict: Verdict) -> dict[str, object]:

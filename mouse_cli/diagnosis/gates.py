@@ -1,6 +1,7 @@
 """What every kind of test is judged by: how probable hypotheses are beforehand, and what a name takes. Each stands here alone."""
 
-from math import comb, log
+from collections.abc import Sequence
+from math import comb, erfc, log, sqrt
 
 from mouse_cli.model.diagnosis import UNPROVED
 from mouse_cli.model.prediction import REFUTED
@@ -52,6 +53,18 @@ LIKELY, DEMANDED = 0.1, UNPROVED
 
 FAR = 5.0
 """Distance of a parameter from its prior mean, in prior sd, beyond which a fit is rejected: it gives no name."""
+
+BEYOND = 0.01
+"""Probability that any of several unknowns is so far from its prior mean, below which those that are so far are reported."""
+
+
+def beyond(z: Sequence[float]) -> list[int]:
+    """Which of the shifts z (n,), in prior sd, are beyond what chance makes of n.
+
+    >>> beyond([0.3, -4.0, 2.9]), beyond([2.9])
+    ([1], [0])
+    """
+    return [j for j, far in enumerate(z) if len(z) * erfc(abs(far) / sqrt(2)) < BEYOND]
 
 
 def prior(count: int) -> float:

@@ -1,5 +1,6 @@
 """Causes concealed in the functions of a chain of six masses, truths by inverting K (1 + i eta) + i omega C - omega^2 M."""
 
+import re
 from types import SimpleNamespace
 
 import numpy as np
@@ -12,7 +13,7 @@ from mouse_cli.diagnosis.likelihoods.frf.judge import Judge
 from mouse_cli.diagnosis.likelihoods.frf.rank import _leading, _places
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.formats import read_deck
-from mouse_cli.model.diagnosis import NAMED, NOTHING
+from mouse_cli.model.diagnosis import NAMED, NOTHING, Choices
 from mouse_cli.updating import run
 
 N, STIFFNESS, MASS, ETA = 6, 4.0e5, 10.0, 0.01  # N/m, kg
@@ -65,11 +66,11 @@ def receptance(omega, lost=0.0, loss=None, damper=None, dashpot=None, oscillator
     return np.array([np.linalg.inv(K + 1j * w * C - w * w * M)[:N, 2] for w in omega])
 
 
-def deck(folder, gain=None, **concealed):
-    """A deck of accelerances with 1 % noise and a floor."""
+def deck(folder, gain=None, force=1.0, **concealed):
+    """A deck of accelerances with 1 % noise and a floor; gain: of a response; force: of all of them, that of the force."""
     rng, hz = np.random.default_rng(8), np.geomspace(4, 70, 1500)
     omega = 2 * np.pi * hz
-    H = -receptance(omega, **concealed) * (omega**2)[:, None]
+    H = -force * receptance(omega, **concealed) * (omega**2)[:, None]
     if gain:
         H[:, gain[0]] *= gain[1]
     variance = (0.01 * np.abs(H)) ** 2 + 0.002**2 * (np.abs(H) ** 2).mean(axis=0)
@@ -106,6 +107,25 @@ def test_what_is_concealed_is_named_with_its_law_and_size(name, tmp_path):
         assert cause.law == law
     for size, true in zip(cause.sizes, sizes, strict=False):
         assert abs(size.value - true) < 3 * size.sd
+
+
+@pytest.mark.parametrize(
+    ("off", "kind", "chain", "true"),
+    [
+        ({"force": 1.15}, NOTHING, "force 3TX", 1.15),
+        ({"gain": (1, 1.15), "ground": (3, 6e4)}, NAMED, "response 2TX", 1.15),
+        ({"gain": (1, 1.03), "force": 0.98}, NOTHING, "", 1.0),
+    ],
+)
+def test_a_gain_that_is_taken_up_beyond_its_calibration_is_told(off, kind, chain, true, tmp_path):
+    """What its prior of 2 % leaves of it; gains that calibrations have are no matter."""
+    found = diagnose(read_deck(deck(tmp_path, **off)), choices=Choices(("ground-spring",)))
+    assert found.kind == kind
+    said = [text for text in found.cautions if text.startswith("The test is at fault")]
+    assert len(said) == bool(chain)
+    for text in said:
+        name, value = re.search(r"gain of (.*?) is (\S+)", text).groups()
+        assert name == chain and true - 0.04 < float(value) < true
 
 
 def test_nothing_is_missing_in_a_control_and_no_law_of_damping_is_tried(tmp_path, monkeypatch):

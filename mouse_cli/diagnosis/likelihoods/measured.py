@@ -8,6 +8,7 @@ from collections.abc import Callable
 from copy import copy
 from dataclasses import replace
 
+from mouse_cli.diagnosis.likelihoods.frf.calibrated import miscalibrated
 from mouse_cli.diagnosis.likelihoods.frf.compared import compared
 from mouse_cli.diagnosis.likelihoods.frf.compared import remarks as of_windows
 from mouse_cli.diagnosis.likelihoods.frf.deck import with_damping
@@ -63,6 +64,10 @@ class Measured:
     def remarks(self, ranking: Ranking) -> tuple[str, ...]:
         """What a ranking found out about the data."""
         return (*of_windows(ranking), *getattr(ranking, "remarks", ()))
+
+    def cautions(self, one: Fit) -> tuple[str, ...]:
+        """What the explanation `one` says against the data, in sentences of the verdict."""
+        return miscalibrated(one)
 
     def compared(self, ranking: Ranking, best: Fit | None) -> dict[str, object]:
         """Fields of a Diagnosis: FRFs of the model as it is and of the fit `best` beside those measured, and damping."""

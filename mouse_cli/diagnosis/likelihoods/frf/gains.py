@@ -12,8 +12,9 @@ SD = 0.02  # of the gain of an accelerometer or of a force transducer, as calibr
 
 @dataclass(frozen=True)
 class Gains:
-    """ln of the gains of t chains, N(0, sd) each; chains: which of them each test has."""
+    """ln of the gains of t chains, N(0, sd) each, and what they are called; chains: which of them each test has."""
 
+    names: tuple[str, ...]
     sd: np.ndarray
     chains: frf_gains.Gains
 
@@ -21,6 +22,10 @@ class Gains:
     def count(self) -> int:
         """How many chains there are."""
         return len(self.sd)
+
+    def of_force(self, j: int) -> bool:
+        """Whether gain j is that of a force."""
+        return any(j in own for own in self.chains.inputs)
 
     def factor(self, i: int, u: np.ndarray) -> np.ndarray:
         """What functions (o, i) of test i are multiplied by, at u (t,) standard deviations."""
@@ -37,4 +42,5 @@ class Gains:
 def gains(tests: tuple[FrfTest, ...]) -> Gains:
     """One chain for each name of a response, the same in all tests, and one for each force of each measurement."""
     known = frf_gains.chains(tests, SD)
-    return Gains(np.array([sd for _, sd in known.values()]), frf_gains.numbered(tests, known))
+    names, sd = zip(*known.values(), strict=True)
+    return Gains(names, np.array(sd), frf_gains.numbered(tests, known))
