@@ -63,9 +63,10 @@ def _considered(section: Section) -> dict[str, Any]:
     """Options of a diagnosis."""
     causes, names = section.value("causes"), section.value("candidates")
     if names:
+        from mouse_cli.diagnosis.likelihoods.candidates import OWN
         from mouse_cli.diagnosis.mechanisms import registry
 
-        known = registry()
+        known = sorted(registry() | OWN)
         for name in names:
             if name not in known:
                 help = f"the candidates are {', '.join(known)}"

@@ -20,9 +20,8 @@ from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.localise.energy_map import energy_map
 from mouse_cli.diagnosis.localise.force import locate
 from mouse_cli.diagnosis.localise.implied_law import implied_law
-from mouse_cli.diagnosis.mechanisms import Candidate, registry
 from mouse_cli.diagnosis.nameless.fit import field_of
-from mouse_cli.diagnosis.names import by_records, housed
+from mouse_cli.diagnosis.names import by_records, housed, of_modes
 from mouse_cli.diagnosis.search.fit import Fit, fit
 from mouse_cli.diagnosis.search.rank import Ranking, group, rank
 from mouse_cli.diagnosis.search.spread import with_forms
@@ -57,7 +56,7 @@ def diagnose(problem: Problem, notice: Notice = lambda text: None, choices: Choi
     >>> found.kind, found.best.title, found.best.causes[0].site.text
     ('named', 'a spring to the ground', 'degree of freedom 2')
     """
-    measured = Measured(problem)
+    measured = Measured(problem, choices.candidates)
     if by_records(problem):
         return measured.laws(notice, choices)
     try:
@@ -75,7 +74,8 @@ def by_its_modes(measured: Measured, notice: Notice, choices: Choices) -> tuple[
     housed(model, choices.candidates)
     enough = 0.0 if model.places is None else ENOUGH
     result, remarks = _update(problem, first.kept, notice, _guess(model), enough, first.solver)
-    ranking = rank(model, _known(choices), choices.causes, measured.ranked, jobs=choices.jobs, again=partial(again, problem))
+    candidates, made = of_modes(choices.candidates), partial(again, problem)
+    ranking = rank(model, candidates, choices.causes, measured.ranked, jobs=choices.jobs, again=made)
     ranking = with_forms(informed(ranking))
     verdict, as_it_is = judge(ranking, measured.modes and _shifted(ranking.baseline), model), ranking.baseline
     kind, best, missing = verdict.kind, verdict.best, verdict.kind != NOTHING
@@ -146,10 +146,6 @@ def _by_modes(problem: Problem) -> Problem:
     their sd where the deck allows for more than usual.
     """
     return replace(problem, frf=(), test=problem.theory.beyond_default(problem.test))
-
-
-def _known(choices: Choices) -> dict[str, Candidate] | None:
-    return None if choices.candidates is None else {key: registry()[key] for key in choices.candidates}
 
 
 def _guess(model: Reduced) -> np.ndarray | None:

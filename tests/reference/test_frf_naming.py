@@ -11,6 +11,7 @@ from mouse_cli.cli.main import _run
 from mouse_cli.diagnosis import diagnose
 from mouse_cli.diagnosis.likelihoods.frf.judge import Judge
 from mouse_cli.diagnosis.likelihoods.frf.rank import _leading, _places
+from mouse_cli.diagnosis.names import NoSite, chosen
 from mouse_cli.diagnosis.search.fit import Fit
 from mouse_cli.formats import read_deck
 from mouse_cli.model.diagnosis import NAMED, NOTHING, Choices
@@ -66,9 +67,9 @@ def receptance(omega, lost=0.0, loss=None, damper=None, dashpot=None, oscillator
     return np.array([np.linalg.inv(K + 1j * w * C - w * w * M)[:N, 2] for w in omega])
 
 
-def deck(folder, gain=None, force=1.0, **concealed):
+def deck(folder, gain=None, force=1.0, lines=1500, **concealed):
     """A deck of accelerances with 1 % noise and a floor; gain: of a response; force: of all of them, that of the force."""
-    rng, hz = np.random.default_rng(8), np.geomspace(4, 70, 1500)
+    rng, hz = np.random.default_rng(8), np.geomspace(4, 70, lines)
     omega = 2 * np.pi * hz
     H = -force * receptance(omega, **concealed) * (omega**2)[:, None]
     if gain:
@@ -126,6 +127,34 @@ def test_a_gain_that_is_taken_up_beyond_its_calibration_is_told(off, kind, chain
     for text in said:
         name, value = re.search(r"gain of (.*?) is (\S+)", text).groups()
         assert name == chain and true - 0.04 < float(value) < true
+
+
+@pytest.mark.parametrize(
+    ("concealed", "asked", "named"),
+    [
+        ({"dashpot": (4, 40.0)}, ("dashpot",), True),
+        ({"ground": (3, 6e4)}, ("ground-spring",), True),
+        ({"lost": 0.4, "loss": (1, ETA)}, ("dashpot",), False),
+    ],
+    ids=["what is missing", "something else alone", "what explains nothing"],
+)
+def test_what_only_damps_is_sought_where_it_is_asked_for(concealed, asked, named, tmp_path):
+    """And nothing besides what was asked for."""
+    problem = read_deck(deck(tmp_path, lines=400, **concealed))
+    found = diagnose(problem, choices=Choices(chosen(problem, asked, False)))
+    assert (found.kind == NAMED) == named
+    assert {cause.physics for one in found.explanations for cause in one.causes} <= {*asked}
+    assert asked[0] not in chosen(problem, asked, True)
+
+
+def test_modes_alone_do_not_show_what_only_damps(tmp_path):
+    path = deck(tmp_path)
+    text = path.read_text().split("test:")[0]
+    path.write_text(f"{text}test: {{modes: {{frequency: [7.7, 22.6], frequency_sd: 1 %}}}}\n")
+    with pytest.raises(ValueError, match="no meaning for modes;"):
+        chosen(read_deck(path), ("dashpot",), False)
+    with pytest.raises(NoSite):
+        diagnose(read_deck(path), choices=Choices(("dashpot",)))
 
 
 def test_nothing_is_missing_in_a_control_and_no_law_of_damping_is_tried(tmp_path, monkeypatch):

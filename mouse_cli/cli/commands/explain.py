@@ -66,9 +66,10 @@ def command(topic: str) -> int:
 
 def _entries() -> Iterator[tuple[str, str]]:
     """Everything that has a name and an explanation."""
-    from mouse_cli._registry import discover
     from mouse_cli.codes import catalogue
     from mouse_cli.diagnosis import candidate_manual
+    from mouse_cli.diagnosis.likelihoods.candidates import OWN
+    from mouse_cli.diagnosis.mechanisms import registry as mechanisms
     from mouse_cli.diagnosis.nameless import registry as rivals
     from mouse_cli.estimators import registry as estimators
     from mouse_cli.formats.cards.operations import explanations
@@ -77,6 +78,7 @@ def _entries() -> Iterator[tuple[str, str]]:
     from mouse_cli.methods import registry as methods
     from mouse_cli.terms.element_manual import about
     from mouse_cli.terms.elements import registry
+    from mouse_cli.terms.laws import registry as laws
     from mouse_cli.updating.loop import RECURSIONS
     from mouse_cli.updating.statuses import STATUSES
 
@@ -94,8 +96,8 @@ def _entries() -> Iterator[tuple[str, str]]:
         yield key, f"{key}: {recursion.MEANING}"
     for key, kind in registry().items():
         yield key, about(kind)
-    for package, attribute in (("mouse_cli.diagnosis.mechanisms", "CANDIDATE"), ("mouse_cli.terms.laws", "LAW")):
-        for key, candidate in discover(package, attribute).items():
+    for known in (mechanisms(), OWN, laws()):
+        for key, candidate in known.items():
             yield key, candidate_manual.about(candidate)
     for key, rival in rivals().items():
         yield key, candidate_manual.about_nameless(rival)

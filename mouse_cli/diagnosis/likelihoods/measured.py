@@ -27,14 +27,15 @@ Notice = Callable[[str], None]
 
 class Measured:
     """The data of `given`. problem: the deck with the modes that are searched with; doubts: what speaks against modes of FRFs.
+    candidates: keys of what is considered; None: all.
 
     Raises NumericalError (MD680) where FRFs alone are given and show no mode.
     """
 
-    def __init__(self, given: Problem):
+    def __init__(self, given: Problem, candidates: tuple[str, ...] | None = None):
         self.given = given
         self.problem, self.doubts = (given, ()) if by_records(given) else with_modes(given)
-        self._by_functions, self._by_recordings = ByFunctions(), ByRecordings()
+        self._by_functions, self._by_recordings = ByFunctions(candidates), ByRecordings()
 
     def of(self, do: Callable[[Problem], Problem]) -> "Measured":
         """The same data of what `do` makes of the deck."""

@@ -194,7 +194,7 @@ def _ranked(study: Study, causes: int, by_all: Callable[[Ranking], Ranking], las
     if last and (none < _IDLE or not adequate(found.baseline, gates.GATE)):
         fits += rivals(model, baseline, kind, within([*fits, *begun.values()]))
     one_each = plain(one for one in found.fits if one.recipes)
-    if causes > 1 and len(found.fits) > 1 and not any(enough(one, FURTHER, gates.GATE) for one in one_each):
+    if causes > 1 and singles and len(found.fits) > 1 and not any(enough(one, FURTHER, gates.GATE) for one in one_each):
         trusted = found.stated[0] > _TRUSTED or found.noise_scale > LOUD
         fits += several(study, singles, causes, trusted, begun)
     others = model.problem.frf or model.problem.recordings  # which may feel what modes do not

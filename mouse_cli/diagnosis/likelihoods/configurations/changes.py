@@ -59,7 +59,7 @@ def _of_before(
     """What the state before lacks, and the decks with it in them; None where it has no name, or cannot be put into all."""
     asked = erring(fitted.arranged)
     scatters = asked is None or not asked.refused  # more than one mechanism is then no more than what members differ by
-    state, verdict = by_its_modes(Measured(before), notice, replace(choices, causes=1) if scatters else choices)
+    state, verdict = by_its_modes(Measured(before, choices.candidates), notice, replace(choices, causes=1) if scatters else choices)
     put = verdict.put
     if put is None or state.kind not in ((NAMED,) if scatters else (NAMED, ONE_OF)) or not explains(put):
         return state, None

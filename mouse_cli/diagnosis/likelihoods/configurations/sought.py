@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from mouse_cli.diagnosis.likelihoods.configurations.erring import Before
 from mouse_cli.diagnosis.mechanisms import Candidate, registry
+from mouse_cli.diagnosis.names import of_modes
 from mouse_cli.model.diagnosis import Choices
 
 
@@ -18,8 +19,8 @@ class Sought:
         """Candidates by key: those that were chosen, or all; of what may have changed between tests without those that last, else
         without those of a change alone.
         """
-        if self.choices.candidates is not None:
-            return {key: registry()[key] for key in self.choices.candidates}
+        if (chosen := of_modes(self.choices.candidates)) is not None:
+            return chosen
         return {key: one for key, one in registry().items() if not (one.lasting if changed else one.between)}
 
     @property

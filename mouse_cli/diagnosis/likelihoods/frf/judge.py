@@ -10,10 +10,10 @@ import numpy as np
 from mouse_cli.diagnosis.effects.change import Recipe
 from mouse_cli.diagnosis.likelihoods.frf.damping import Damping
 from mouse_cli.diagnosis.likelihoods.frf.damping import damping as of_model
-from mouse_cli.diagnosis.likelihoods.frf.dashpots import dashpots
+from mouse_cli.diagnosis.likelihoods.frf.dashpots import DASHPOT, dashpots
 from mouse_cli.diagnosis.likelihoods.frf.data import FrfData
 from mouse_cli.diagnosis.likelihoods.frf.lossy import GROUPS, LAWS, LOSS, SAME, lossy
-from mouse_cli.diagnosis.likelihoods.frf.lossy_parts import lossy_parts
+from mouse_cli.diagnosis.likelihoods.frf.lossy_parts import LOSSY_PART, lossy_parts
 from mouse_cli.diagnosis.likelihoods.frf.model import FrfModel
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.diagnosis.search.fit import MOST, End, Fit, descended, fit
@@ -24,18 +24,25 @@ _PLACES, _KEPT = 5, 2  # places from which what only damps begins, and how many 
 THIN, BRIEF = 4, 12  # in a first look: every so manieth line, and steps
 _ALIKE = 10.0  # squared distance of what two explanations predict, by the data's sd, up to which they are as one
 
+DAMPERS: dict[str, Callable[[Reduced, float], list[Recipe]]] = {
+    DASHPOT.key: lambda base, middle: dashpots(base),
+    LOSSY_PART.key: lossy_parts,
+}
+"""Recipes of what only damps, by its key, in a reduced model; middle (rad/s): of the band."""
+
 
 @dataclass(frozen=True)
 class Judge:
     """FRFs of a test and the damping of the structure as it is held likely.
 
     known (m,): sd of ln f of modes measured beside them by what theory leaves of both; None: the modes are those of the functions.
-    What was fitted once is kept, and not fitted again in a later ranking.
+    sought: keys of what only damps, and is considered. What was fitted once is kept, and not fitted again in a later ranking.
     """
 
     data: FrfData
     damping: Damping
     known: np.ndarray | None = None
+    sought: tuple[str, ...] = tuple(DAMPERS)
     _kept: dict[tuple, tuple[End, float, Any]] = field(default_factory=dict, init=False, repr=False, compare=False)
     _coarse: dict[int, tuple[np.ndarray, Damping]] = field(default_factory=dict, init=False, repr=False, compare=False)
 
@@ -159,8 +166,8 @@ class Judge:
 
     def _damped(self, one: Fit, base: Reduced, reach: float) -> list[Fit]:
         found = []
-        for recipes in (dashpots(base), lossy_parts(base, self.data.middle)):
-            recipes = [replace(recipe, number=i) for i, recipe in enumerate(recipes)]
+        for key in self.sought:
+            recipes = [replace(recipe, number=i) for i, recipe in enumerate(DAMPERS[key](base, self.data.middle))]
             fits = [fit(trial, x[trial.k :], x[: trial.k], BRIEF, reach) for trial, x in self._starts(one, recipes)]
             found += sorted((each for each in fits if each is not None), key=lambda each: -each.log_evidence)[:_KEPT]
         return found

@@ -12,7 +12,7 @@ from mouse_cli.diagnosis.gates import GATE
 from mouse_cli.diagnosis.likelihoods.frf.correlated import correlated, scatter
 from mouse_cli.diagnosis.likelihoods.frf.damping import damping
 from mouse_cli.diagnosis.likelihoods.frf.data import FrfData, lines
-from mouse_cli.diagnosis.likelihoods.frf.judge import BRIEF, THIN, Judge
+from mouse_cli.diagnosis.likelihoods.frf.judge import BRIEF, DAMPERS, THIN, Judge
 from mouse_cli.diagnosis.likelihoods.frf.lossy import GROUPS, LAWS
 from mouse_cli.diagnosis.likelihoods.frf.mesh import of_mesh
 from mouse_cli.diagnosis.likelihoods.modal.model import Model
@@ -58,9 +58,13 @@ class FitWithModes(Fit):
 
 
 class ByFunctions:
-    """What FRFs make of rankings of one deck; a fit that was judged once is not fitted again."""
+    """What FRFs make of rankings of one deck; a fit that was judged once is not fitted again.
 
-    def __init__(self) -> None:
+    candidates: keys of what is considered; None: all.
+    """
+
+    def __init__(self, candidates: tuple[str, ...] | None = None) -> None:
+        self._sought = tuple(key for key in DAMPERS if candidates is None or key in candidates)
         self._own: tuple[Fit, Judge] | None = None
         self._meshes: dict[tuple[bytes, float], float] = {}
 
@@ -89,7 +93,7 @@ class ByFunctions:
         if self._own is None or self._own[0] is not baseline:
             base, theory = baseline.model.base, _theory(baseline)
             data = FrfData(tuple(lines(test, base.problem.theory) for test in base.problem.frf), theory)
-            self._own = baseline, Judge(data, damping(base, len(theory)), base.data.theory if measured else None)
+            self._own = baseline, Judge(data, damping(base, len(theory)), base.data.theory if measured else None, self._sought)
         return self._own[1]
 
     def _without_mesh(self, none: Fit, base: Reduced) -> Fit:
