@@ -109,6 +109,30 @@ def test_jacobian_is_the_slope_of_the_functions(control, name):
     slopes_agree(model, x)
 
 
+def late_model(control):
+    """As `model_of` without a cause, of functions whose responses may be late."""
+    case, base, own, _ = control
+    return model_of((case, replace(base, data=base.data.delayed()), own, control[3]), None)
+
+
+def test_jacobian_where_responses_are_late(control):
+    model, x = late_model(control)
+    x = x + 0.3 * np.cos(np.arange(len(x)))
+    x[model.of_deck : model.lossy] = 0.2
+    slopes_agree(model, x)
+
+
+def test_a_delay_turns_the_phase_of_its_row(control):
+    """By -omega tau, and no other row; 1 radian at the highest line is one standard deviation."""
+    model, x = late_model(control)
+    there = x.copy()
+    there[model.lossy + model.gains.delays[0][2]] = 0.7
+    ratio = (model.point(there).parts[0].H / model.point(x).parts[0].H)[:, :, 0]
+    omega = model.base.data.blocks[0].omega
+    np.testing.assert_allclose(ratio[:, 2], np.exp(-0.7j * omega / omega.max()), rtol=1e-9)
+    np.testing.assert_allclose(np.delete(ratio, 2, axis=1), 1.0, rtol=1e-9)
+
+
 @pytest.mark.proof
 def test_jacobian_of_averages_under_a_window_with_damping_of_each_mode(control):
     """H1 of blocks of 2 s, whose lines are broader than the resonances; the damping of each of five modes is its own."""

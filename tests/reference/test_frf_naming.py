@@ -67,11 +67,14 @@ def receptance(omega, lost=0.0, loss=None, damper=None, dashpot=None, oscillator
     return np.array([np.linalg.inv(K + 1j * w * C - w * w * M)[:N, 2] for w in omega])
 
 
-def deck(folder, gain=None, force=1.0, lines=1500, **concealed):
-    """A deck of accelerances with 1 % noise and a floor; gain: of a response; force: of all of them, that of the force."""
+def deck(folder, gain=None, force=1.0, late=0.0, lines=1500, **concealed):
+    """A deck of accelerances with 1 % noise and a floor; gain: of a response; force: of all of them, that of the force; late (s):
+    of one response, or of all.
+    """
     rng, hz = np.random.default_rng(8), np.geomspace(4, 70, lines)
     omega = 2 * np.pi * hz
     H = -force * receptance(omega, **concealed) * (omega**2)[:, None]
+    H = H * np.exp(-1j * omega[:, None] * late)
     if gain:
         H[:, gain[0]] *= gain[1]
     variance = (0.01 * np.abs(H)) ** 2 + 0.002**2 * (np.abs(H) ** 2).mean(axis=0)
@@ -127,6 +130,18 @@ def test_a_gain_that_is_taken_up_beyond_its_calibration_is_told(off, kind, chain
     for text in said:
         name, value = re.search(r"gain of (.*?) is (\S+)", text).groups()
         assert name == chain and true - 0.04 < float(value) < true
+
+
+@pytest.mark.parametrize(
+    ("late", "said"), [(np.full(N, 1e-3), "all responses are"), (1e-3 * np.eye(N)[3], "response 4TX is")], ids=["all", "one"]
+)
+def test_a_delay_of_responses_is_no_missing_physics(late, said, tmp_path):
+    """1 ms, 25 degrees at 70 Hz."""
+    found = diagnose(read_deck(deck(tmp_path, late=late, lines=150)), choices=Choices(("sensor-sign",), 1))
+    assert found.kind == NOTHING
+    (text,) = found.cautions
+    value, sd = re.search(rf"{said} (\S+) ms \(sd (\S+)\) late", text).groups()
+    assert abs(float(value) - 1) < 4 * float(sd) + 1e-3 and text.count(" ms ") == 1
 
 
 @pytest.mark.parametrize(

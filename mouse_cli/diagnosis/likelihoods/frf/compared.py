@@ -101,7 +101,7 @@ def of_functions(one: Fit) -> Fit:
 
 
 def _by_modes(one: Fit, tests: Tests) -> Fit:
-    """A fit of modes with what functions need besides, as it is held likely: damping of the structure, gains."""
+    """A fit of modes with what functions need besides, as it is held likely: damping of the structure, gains and delays."""
     own, data = one.model.k, FrfData(tuple(lines(test, one.model.base.problem.theory) for test in tests))
     model = FrfModel(one.model.base.judged_by(data), damping(one.model.base), one.recipes)
     x, hessian = np.insert(one.point.x, own, np.zeros(model.k - own)), np.eye(model.k + model.t)
@@ -167,7 +167,7 @@ def _parted(model: FrfModel, jacobian: np.ndarray) -> list[np.ndarray]:
 
 
 def _carried(one: Fit, fitted: Tests, model: FrfModel, tests: Tests) -> tuple[np.ndarray, np.ndarray]:
-    """x and its covariance for `model` of `tests`: gains of chains that the fit of `fitted` has not are as held likely before."""
+    """x and its covariance for `model` of `tests`: gains and delays that the fit of `fitted` has not are as held likely before."""
     before, after = _chains(one.model, fitted), _chains(model, tests)
     P = np.zeros((model.k + model.t, one.model.k + one.model.t))
     P[: model.lossy, : model.lossy] = np.eye(model.lossy)
@@ -179,10 +179,12 @@ def _carried(one: Fit, fitted: Tests, model: FrfModel, tests: Tests) -> tuple[np
 
 
 def _chains(model: FrfModel, tests: Tests) -> dict[tuple[str, ...], int]:
-    """Which gain belongs to each response by its name, and to each force by its name and measurement."""
+    """Which gain belongs to each response by its name, and to each force by its name and measurement; and which delay."""
     found: dict[tuple[str, ...], int] = {}
-    for test, outputs, inputs in zip(tests, model.gains.chains.outputs, model.gains.chains.inputs, strict=True):
+    own = model.gains
+    for test, outputs, inputs, delays in zip(tests, own.chains.outputs, own.chains.inputs, own.delays, strict=True):
         found |= {(name,): int(k) for name, k in zip(names(test)[0], outputs, strict=True)}
+        found |= {("delay", name, ""): int(k) for name, k in zip(names(test)[0], delays, strict=False)}
         found |= {(test.title, name): int(k) for name, k in zip(names(test)[1], inputs, strict=True)}
     return found
 

@@ -84,14 +84,15 @@ def _largest(H: np.ndarray) -> np.ndarray:
 @dataclass(frozen=True)
 class FrfData:
     """All FRFs of a diagnosis. theory (c,): sd of ln f of the lowest modes by what theory and mesh leave. alike: how many data say
-    the same. scale: of the variances, over what they were held to be. modes: measured beside them, their accuracies those of the
-    test, as `theory` is that of both.
+    the same. scale: of the variances, over what they were held to be. late: sd (s) of delays of responses; 0: they have none.
+    modes: measured beside them, their accuracies those of the test, as `theory` is that of both.
     """
 
     blocks: tuple[Lines, ...]
     theory: np.ndarray = field(default_factory=lambda: np.zeros(0))
     alike: float = 1.0
     scale: float = 1.0
+    late: float = 0.0
     modes: Data | None = None
     by_shape: bool = True  # modes are told apart by what several sensors read
 
@@ -116,6 +117,10 @@ class FrfData:
         more = np.sqrt(alike * scale)
         blocks = tuple(replace(block, sd=block.sd * more) for block in self.blocks)
         return replace(self, blocks=blocks, alike=self.alike * alike, scale=self.scale * scale)
+
+    def delayed(self) -> "FrfData":
+        """The same where responses may be late, sd a radian at the highest line."""
+        return replace(self, late=1 / max(float(block.omega.max()) for block in self.blocks))
 
     @property
     def middle(self) -> float:

@@ -52,6 +52,11 @@ class Judge:
         same = all(new is old for new, old in zip(blocks, self.data.blocks, strict=True))
         return None if same else replace(self, data=replace(self.data, blocks=blocks))
 
+    @property
+    def delayed(self) -> "Judge":
+        """By functions whose responses may be late."""
+        return replace(self, data=self.data.delayed())
+
     @cached_property
     def thinned(self) -> "Judge":
         """By few lines."""

@@ -55,7 +55,7 @@ class FrfPoint(Left):
 class Functions:
     """Z^-1 in modes, and by what H is more than S Z^-1 B', factor (n, o, i): at the nodes of the lines.
 
-    H (f, o, i): as measured, gains and leakage in it.
+    H (f, o, i): as measured, gains, delays and leakage in it.
     """
 
     receptance: Receptance
@@ -66,14 +66,14 @@ class Functions:
 class FrfModel:
     """What `fit` needs of a model. x: k unknowns N(0, 1), then t of the causes.
 
-    The k are of the deck, of the damping, of the gains, and what theory errs in ln f of the lowest modes.
+    The k are of the deck, of the damping, of the gains and delays of chains, and what theory errs in ln f of the lowest modes.
     """
 
     def __init__(self, base: Reduced, damping: Damping, recipes: tuple[Recipe, ...] = (), middle: float | None = None):
         """base.data: FrfData; middle: omega_0, rad/s, of viscous losses; None: the middle of the band."""
         self.base, self.damping, self.recipes = base, damping, recipes
         self.elastic, self.modes = Model(base.judged_by(base.data.modes), recipes), base.data.modes
-        self.gains = gains(tuple(block.test for block in base.data.blocks))
+        self.gains = gains(tuple(block.test for block in base.data.blocks), base.data.late)
         self.losses = Losses(self.elastic, damping, base.data.middle if middle is None else middle)
         self.of_deck, self.lossy = base.L.shape[1], base.L.shape[1] + len(damping.mean)
         self.theory, self.measured = base.data.theory, self.lossy + self.gains.count
@@ -90,7 +90,7 @@ class FrfModel:
         return np.concatenate([self.base.z, np.zeros(self.k - self.of_deck)])
 
     def split(self, x: np.ndarray) -> tuple[np.ndarray, ...]:
-        """Coordinates of the deck's parameters, of the damping, of the gains, of what theory errs, and of the causes."""
+        """Coordinates of the deck's parameters, of the damping, of the chains, of what theory errs, and of the causes."""
         return tuple(np.split(x, [self.of_deck, self.lossy, self.measured, self.k]))
 
     def _rows(self, test: FrfTest) -> tuple[np.ndarray, np.ndarray]:
@@ -145,7 +145,7 @@ class FrfModel:
         flat = 1 / (eigenvalues[:, None] + s**2 + of_modes.T @ of_lines)
         G, W = self.losses.local(s, z, own, c)
         receptance = Receptance(S @ X, B @ X, G @ X, flat, W)
-        factor = block.factor * self.gains.factor(i, u)
+        factor = block.factor * self.gains.factor(i, u, s)
         return Functions(receptance, block.expected(factor * receptance.H), factor)
 
     def parts(self, at: FrfPoint) -> list:
@@ -171,11 +171,12 @@ class FrfModel:
         self._by_matrices(i, at, receptance, of_deck, causes)
         self._by_damping(i, at, receptance, damped, errs)
         gains[:] = 0.0
+        gains[len(self.gains.sd) :] = -self.gains.by_delays(i, receptance.H, block.nodes)
         for j, slope in self._of_losses(i, at, receptance):
             found[j] += slope
         found *= -part.factor
         found = block.expected(np.moveaxis(found, 1, 0)).swapaxes(0, 1) if block.leakage else found
-        found[self.lossy : self.measured] = np.moveaxis(self.gains.slopes(i, part.H), -1, 0)
+        found[self.lossy : self.lossy + len(self.gains.sd)] = np.moveaxis(self.gains.by_gains(i, part.H), -1, 0)
         return found
 
     def _by_matrices(self, i: int, at: FrfPoint, receptance: Receptance, of_deck: np.ndarray, causes: np.ndarray) -> None:

@@ -80,8 +80,8 @@ class ByFunctions:
         fits = _searched(judge, modal)
         if not fits:
             return modal
-        if not any(map(adequate, fits)) and (leaking := _leaking(judge, fits)):
-            judge, fits = leaking, _searched(leaking, modal) or fits
+        if not any(map(adequate, fits)) and (erring := _erring(judge, fits, modal)):
+            judge, fits = erring, _searched(erring, modal) or fits
         fits = _shared(_together(_weighed(judge, fits)))
         fits[0] = self._without_mesh(fits[0], base)
         found = ranking(fits[0], fits)
@@ -174,17 +174,18 @@ def _looked(
     return looked
 
 
-def _leaking(judge: Judge, fits: list[Fit]) -> Judge | None:
-    """By the window that the deck does not state, if what is nearest in `fits` explains the functions with one; None: with none."""
-    nearest = min(fits, key=lambda one: one.misfit)
-    trials = []
-    for name in _UNSTATED:
-        if (there := judge.windowed(name)) and (one := there.fitted(nearest)):
-            trials.append((one.misfit, there, one))
+def _erring(judge: Judge, fits: list[Fit], modal: Ranking) -> Judge | None:
+    """By an error that functions may have, if they are explained with it: by what is nearest in `fits` with a window that the deck
+    does not state, or with late responses by what explains the modes, for delays bend a fit that has none; None: by none.
+    """
+    nearest, late = min(fits, key=lambda one: one.misfit), judge.delayed
+    begun = [(there, nearest) for there in map(judge.windowed, _UNSTATED) if there]
+    begun += [(late, at) for one in (modal.baseline, modal.fits[0]) if (at := late.near(one, late.broadened))]
+    trials = [(one, there) for there, start in begun if (one := there.fitted(start))]
     if not trials:
         return None
-    misfit, there, one = min(trials, key=lambda trial: trial[0])
-    return there if adequate(one) and nearest.misfit - misfit > 2 * _PLAIN else None
+    one, there = min(trials, key=lambda trial: trial[0].misfit)
+    return there if adequate(one) and nearest.misfit - one.misfit > 2 * _PLAIN else None
 
 
 def anew(judge: Judge, modal: Ranking) -> list[End]:
