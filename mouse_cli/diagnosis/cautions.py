@@ -56,11 +56,11 @@ def misstated(ranking: Ranking) -> str | None:
 
 
 def _scattered(ranking: Ranking) -> bool:
-    """Whether more scatter than stated, and no parameter far from its prior, explains the data better than whatever has a name or
-    none: no mechanism, many of which may share what probability is left, has ODDS over it.
+    """Whether more scatter than stated explains the data as well as whatever has a name or none: no mechanism has ODDS over it, or
+    it is more probable than all of them.
     """
-    (name, probability), one = ranking.groups[0], ranking.baseline
-    leads = name == "none" and (probability > _PROBABLE or float(ranking.log_odds.max()) <= ODDS)
+    one, none = ranking.baseline, dict(ranking.groups).get("none", 0.0)
+    leads = none > _PROBABLE or float(ranking.log_odds.max()) <= ODDS
     return leads and ranking.noise_scale <= LOUD and upper_tail(one.misfit, one.dof) < GATE
 
 
