@@ -11,7 +11,7 @@ from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.mesh import Mesh
 from mouse_cli.model.problem import Problem
 
-_TOGETHER = 16  # supports that may be alike
+TOGETHER = 16  # supports that may be alike
 _FEW = 4  # nodes up to which a support may be flexible in any of its directions together
 _ONE_ROW = 1e-6  # of the largest dimension: by which supports of one row are out of line at most
 
@@ -32,7 +32,7 @@ def support_sets(mesh: Mesh, held: Sequence[Held], size: np.ndarray) -> tuple[li
     several = [
         [[at[node, d]] for d in some] for some in together for node in nodes if all((node, d) in at for d in some)
     ]
-    many = {d: own for d, own in sorted(by.items()) if 1 < len(own) <= _TOGETHER}
+    many = {d: own for d, own in sorted(by.items()) if 1 < len(own) <= TOGETHER}
     alike = [[own] for own in many.values()]
     alike += [[many[d] for d in some] for some in together if all(d in many for d in some)]
     alike += [[own] for d in many for own in _rows(mesh, held, by[d])]

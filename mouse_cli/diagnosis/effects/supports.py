@@ -1,5 +1,6 @@
 """Flexible supports: the motion of each, as a degree of freedom of its own beside those of the reduced model."""
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -19,6 +20,7 @@ from mouse_cli.diagnosis.effects.released import (
     static,
 )
 from mouse_cli.diagnosis.effects.support_sets import (
+    TOGETHER,
     by_direction,
     dofs,
     sprung,
@@ -63,7 +65,12 @@ def yielding(model: Reduced, candidate: Candidate, turning: bool) -> list[Recipe
     found = released(model, range(3, 6) if turning else range(3))
     if found is None:
         return []
-    single, *together = [kind for kind in _sets(model, found) if kind]
+    return _recipes(model, candidate, found, _sets(model, found))
+
+
+def _recipes(model: Reduced, candidate: Candidate, found: Released, kinds: Sequence[list[list[list[int]]]]) -> list[Recipe]:
+    """Of the sets of each kind, single supports first, which share half of the prior."""
+    single, *together = [kind for kind in kinds if kind]
     return [
         _recipe(model, candidate, found, which, -float(np.log(len(kind) * some * (1 + bool(together)))))
         for kind, some in [(single, 1), *((kind, len(together)) for kind in together)]
@@ -72,23 +79,31 @@ def yielding(model: Reduced, candidate: Candidate, turning: bool) -> list[Recipe
 
 
 def loose(model: Reduced, candidate: Candidate) -> list[Recipe]:
-    """A recipe for the support of each node that is held along an axis and against turning: it gives along one, or along all that
-    bear, and turns, each with a stiffness of its own.
+    """A recipe for the support of each node that is held along an axis and against turning, and for all of them alike: it gives
+    along one, or along all that bear, and turns, each with a stiffness of its own.
     """
     found = None if model.problem.held is not None else released(model, range(3), range(3, 6))
     sets = [] if found is None else _lifted(found)
-    return [_recipe(model, candidate, found, each, -float(np.log(len(sets)))) for each in sets]
+    return _recipes(model, candidate, found, sets) if any(sets) else []
 
 
-def _lifted(found: Released) -> list[list[list[int]]]:
-    """Supports by number that are loose together: of each node those against turning, with one along an axis or all of these."""
-    sets = []
-    for node in dict.fromkeys(node for node, _ in found.held):
-        along = [[i] for i, (n, d) in enumerate(found.held) if n == node and d < 3]
-        turns = [[i] for i, (n, d) in enumerate(found.held) if n == node and d >= 3]
-        some = [[each] for each in along] + ([along] if len(along) > 1 else []) if turns else []
-        sets += [own + turns for own in some]
-    return sets
+def _lifted(found: Released) -> tuple[list[list[list[int]]], list[list[list[int]]]]:
+    """Supports by number that are loose together: of each node those against turning, with one along an axis or all of these; and
+    the same of all nodes, in the directions that are common to them, alike in each.
+    """
+    of: dict[int, dict[int, int]] = {}
+    for i, (node, d) in enumerate(found.held):
+        of.setdefault(node, {})[d] = i
+    single = [[[own[d]] for d in some] for own in of.values() for some in _loosened(own)]
+    common = [d for d in range(6) if all(d in own for own in of.values())] if 1 < len(of) <= TOGETHER else []
+    return single, [[[own[d] for own in of.values()] for d in some] for some in _loosened(common)]
+
+
+def _loosened(directions: Iterable[int]) -> list[list[int]]:
+    """Of the directions in which a node is held those in which it may be loose together; none where it is not held both ways."""
+    along, turns = ([d for d in directions if (d < 3) is straight] for straight in (True, False))
+    some = [[d] for d in along] + ([along] if len(along) > 1 else []) if turns else []
+    return [own + turns for own in some]
 
 
 def _sets(model: Reduced, found: Released) -> tuple[list[list[list[int]]], ...]:
@@ -151,7 +166,8 @@ def _candidates(model: Reduced, kinds: range) -> list[tuple[int, int]]:
 def _loaded(
     model: Reduced, held: list, free: Free, most: int, light: bool
 ) -> tuple[list, np.ndarray, np.ndarray]:
-    """Those that bear a part of the largest reaction in the lowest modes, where they are in `free`, and their largest reactions.
+    """Those that bear a part of the largest reaction of their direction in the lowest modes, and a direction one of the largest of
+    all, where they are in `free`; and their largest reactions.
 
     A support without mass would only be in series with what it holds, whose own stiffness says the same.
     """
@@ -163,7 +179,10 @@ def _loaded(
     modes = slice(0, model.low_modes())
     size = np.abs(free.reactions(model, s, modes)).max(axis=1)
     order = np.sort(np.argsort(-size, kind="stable")[:most])
-    order = order[size[order] > _LOADED * size.max()]
+    along = np.array([held[i][1] for i in known])
+    largest = np.array([size[along == d].max() for d in along])  # those of a direction that bears are alike, if they are
+    largest[largest <= _LOADED * size.max()] = size.max()
+    order = order[size[order] > _LOADED * largest[order]]
     return [held[known[i]] for i in order], s[order], size[order]
 
 

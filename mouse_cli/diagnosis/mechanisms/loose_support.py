@@ -8,8 +8,8 @@ CANDIDATE = Candidate(
     "loose-support",
     "a loose support",
     "support",
-    "the support of one node that gives along one axis, or along all, and turns: anchors or bolts that are loose, a foot that "
-    "lifts; each direction with a stiffness of its own",
+    "the support of one node, or of all alike, that gives along one axis, or along all, and turns: anchors or bolts that are "
+    "loose, a foot that lifts, feet on soil; each direction with a stiffness of its own",
     loose,
     supports,
 )
