@@ -10,7 +10,8 @@ CANDIDATE = Candidate(
     "compression",
     "axial compression",
     "axial",
-    "a push along bars (thermal, dead load, prestress) that softens their bending: low modes fall most; it stays below buckling",
+    "a push along a row of bars, or along rows side by side alike (thermal, dead load, prestress), that softens their bending: low "
+    "modes fall most; it stays below buckling",
     partial(preloads, sign=-1),
     bars,
 )

@@ -10,7 +10,8 @@ CANDIDATE = Candidate(
     "tension",
     "axial tension",
     "axial",
-    "a pull along bars (thermal, cable, prestress) that stiffens their bending: low modes rise most, high ones hardly",
+    "a pull along a row of bars, or along rows side by side alike (thermal, cable, prestress), that stiffens their bending: low "
+    "modes rise most, high ones hardly",
     partial(preloads, sign=1),
     bars,
 )

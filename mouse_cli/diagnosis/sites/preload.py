@@ -10,9 +10,13 @@ from mouse_cli.diagnosis.mechanisms import Candidate
 from mouse_cli.diagnosis.sites.lines import Line, elements, whole
 from mouse_cli.diagnosis.sites.points import wanted
 from mouse_cli.model.diagnosis import Site
+from mouse_cli.model.groups import enumerated
 from mouse_cli.model.problem import Problem
 from mouse_cli.terms.element_term import ElementTerm
 from mouse_cli.terms.elements import _beam as beam
+
+_FEW = 3  # rows that are named one by one
+_ONE = 6  # decimals of the size of the structure to which lengths and levels are one
 
 
 def runs(model: Reduced, *bound: str, multiplied: bool = False) -> list[Line]:
@@ -57,25 +61,51 @@ def tensions(model: Reduced) -> np.ndarray:
 
 
 def preloads(model: Reduced, candidate: Candidate, sign: int) -> list[Recipe]:
-    """K + T Kg, T of the given sign, for each straight row of bars."""
-    found = runs(model, "preload")
-    tension = tensions(model) if found else np.zeros(0)
-    return [_recipe(model, candidate, run, sign, len(found), tension[run.members]) for run in found]
+    """K + T Kg, T of the given sign, for each straight row of bars, and for rows side by side, all alike: half of the prior each.
+    """
+    single = [[run] for run in runs(model, "preload")]
+    tension = tensions(model) if single else np.zeros(0)
+    alike = side_by_side([run for run, in single])
+    return [
+        _recipe(model, candidate, rows, sign, len(kind) * (1 + bool(alike)), tension) for kind in (single, alike) for rows in kind
+    ]
 
 
-def _recipe(model: Reduced, candidate: Candidate, run: Line, sign: int, count: int, tension: np.ndarray) -> Recipe:
-    bars, members = model.bars, whole(run)
+def side_by_side(found: list[Line]) -> list[list[Line]]:
+    """Rows of one direction and length, two or more, that begin at one level along it: columns of a storey, legs."""
+    by: dict[tuple, list[Line]] = {}
+    for run in found:
+        first, last = sorted(each.tolist() for each in run.ends)
+        along, size = np.subtract(last, first), float(np.ptp(run.bars.start, axis=0).max())
+        by.setdefault(tuple(np.round(np.append(along, along @ first / run.length) / size, _ONE)), []).append(run)
+    return [rows for rows in by.values() if len(rows) > 1]
+
+
+def _recipe(
+    model: Reduced, candidate: Candidate, rows: list[Line], sign: int, count: int, tension: np.ndarray
+) -> Recipe:
+    """Of rows that have one force."""
+    bars, own = model.bars, np.concatenate([run.members for run in rows])
+    members = np.concatenate([whole(run) for run in rows])
     _, slope, _ = beam.shapes(bars.length[members], bars.phi[members])
     Kg = sign * bars.added(beam.integral(slope, bars.length[members]), members)
-    scale = resistance(bars.EI[run.members], tension, run.length)
+    scale = resistance(bars.EI[own], tension[own], rows[0].length)
     T = Unknown("force", "N", 0.03 * scale, 30 * scale)
-    site = site_of(model, run)
+    site = site_of(model, rows[0]) if len(rows) == 1 else _of_several(model, rows)
 
     def extend(problem: Problem, values: np.ndarray) -> Problem:
         edit = Edit(problem)
-        beams = beams_within(edit, [run.ends])
+        beams = beams_within(edit, [run.ends for run in rows])
         edit.put(beams, "preload", np.array([edit.values(e, "preload") for e in beams]) + sign * values[0])
         edit.bind(f"axial force of {site.text}", beams, ("preload",), unit="N")
         return edit.done()
 
     return proportional(candidate, T, 6, site, -float(np.log(count)), extend, K=Kg)
+
+
+def _of_several(model: Reduced, rows: list[Line]) -> Site:
+    """Rows of bars in words."""
+    ids = [tuple(model.bars.ids[run.members].tolist()) for run in rows]
+    every = tuple(i for own in ids for i in own)
+    text = enumerated([elements(own) for own in ids]) if len(rows) <= _FEW else elements(every)
+    return Site("element", every, None, f"{text}, all alike")

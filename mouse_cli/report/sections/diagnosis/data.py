@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from mouse_cli.dynamics.frequency import frequency_hz
-from mouse_cli.model.diagnosis import BY_DECK, BY_MODE, NAMED, Diagnosis, Score
+from mouse_cli.model.diagnosis import BY_DECK, BY_MODE, ONE_OF, Diagnosis, Score
 from mouse_cli.model.modal_test import ModalTest
 from mouse_cli.model.result import Result
 from mouse_cli.model.units import system
@@ -21,7 +21,7 @@ from mouse_cli.report.theory import stated
 
 def fitted(found: Diagnosis, options: Options) -> Iterator[Block]:
     """One line a mode, both models revised by the test."""
-    test, after, name = found.problem.test, found.extended_result, with_cause(found)
+    test, after, name = found.problem.test, found.extended_result, _extended(found)
     hz, off, alike = _against(found.result, test)
     hz_after, off_after, alike_after = _against(after, test) if after else np.full((3, test.m), np.nan)
     rows = zip(test.number, test.frequency_hz, hz, off, hz_after, off_after, alike, alike_after, strict=True)
@@ -33,11 +33,16 @@ def fitted(found: Diagnosis, options: Options) -> Iterator[Block]:
     which = "Both models with their" if after else "The model with its"
     yield Text(f"{which} parameters revised by these data; differences are model minus test.")
     if after and after.model_form == "rejected":
-        which = name if found.kind == NAMED else f"model {name}"
+        which = f"model {name}" if found.kind == ONE_OF else name
         yield Text(
             f"At the stated accuracies alone, which `mouse run` takes, the form of the {which} is rejected too: a diagnosis allows "
             "for what theory leaves beside them."
         )
+
+
+def _extended(found: Diagnosis) -> str:
+    """How the model that was extended is called: with what leads where that is one of several, or whatever it is."""
+    return with_cause(found) if found.kind == ONE_OF else "extended model"
 
 
 def _fitted_row(row: list[float]) -> tuple[Cell, ...]:
