@@ -7,7 +7,7 @@ import numpy as np
 
 from mouse_cli.diagnosis.effects.element_sets import text
 from mouse_cli.diagnosis.explained import acting
-from mouse_cli.diagnosis.gates import GATE, ODDS, beyond
+from mouse_cli.diagnosis.gates import GATE, beyond
 from mouse_cli.diagnosis.likelihoods.modal.accuracy import Doubt, scatter
 from mouse_cli.diagnosis.likelihoods.modal.mixed import mixed
 from mouse_cli.diagnosis.likelihoods.modal.repeated import exchanged, repeated
@@ -60,8 +60,8 @@ def _scattered(ranking: Ranking) -> bool:
     it is more probable than all of them.
     """
     one, none = ranking.baseline, dict(ranking.groups).get("none", 0.0)
-    leads = none > _PROBABLE or float(ranking.log_odds.max()) <= ODDS
-    return leads and ranking.noise_scale <= LOUD and upper_tail(one.misfit, one.dof) < GATE
+    leads = ranking.scattered or (none > _PROBABLE and ranking.noise_scale <= LOUD)
+    return leads and upper_tail(one.misfit, one.dof) < GATE
 
 
 def _doubts(ranking: Ranking) -> list[Doubt]:
@@ -134,7 +134,7 @@ def _mixed(one: Fit, doubt: Doubt) -> str:
 def _errors(ranking: Ranking, verdict: Verdict) -> Iterator[str]:
     """Errors of the test that explain the data, alone or beside a mechanism; where they need not be, as what may be wrong."""
     begin = "Unless what is missing is in no library, the test" if verdict.kind == UNKNOWN else "The test"
-    coarse, entry = _CERTAIN if misstated(ranking) else _POSSIBLE
+    coarse, entry = _POSSIBLE if misstated(ranking) in (None, _SCATTER) else _CERTAIN
     for doubt in _doubts(ranking) if ranking.noise_scale <= NOISY else ():
         if doubt.probability > RIVAL and (said := _mixed(ranking.baseline, doubt)):
             yield said

@@ -82,6 +82,14 @@ class Ranking:
         return shares(*zip(*_counted(self.fits, self.probabilities), strict=True))
 
     @property
+    def scattered(self) -> bool:
+        """Whether more scatter than is stated explains the data as well as any mechanism: none has ODDS over it, and none explains
+        them by what is stated.
+        """
+        lead = float(self.log_odds.max()) <= gates.ODDS and self.noise_scale <= LOUD
+        return lead and not any(one.recipes and explains(one) for one in self.fits)
+
+    @property
     def named(self) -> list[int]:
         """Indices of the fits that have a name, or are of no mechanism."""
         return [i for i, one in enumerate(self.fits) if unnamed(one) is None]
@@ -194,10 +202,11 @@ def _ranked(study: Study, causes: int, by_all: Callable[[Ranking], Ranking], las
     if last and (none < _IDLE or not adequate(found.baseline, gates.GATE)):
         fits += rivals(model, baseline, kind, within([*fits, *begun.values()]))
     one_each = plain(one for one in found.fits if one.recipes)
-    if causes > 1 and singles and len(found.fits) > 1 and not any(enough(one, FURTHER, gates.GATE) for one in one_each):
+    others = model.problem.frf or model.problem.recordings  # which may feel what modes do not
+    further = causes > 1 and singles and len(found.fits) > 1 and (others or not found.scattered)
+    if further and not any(enough(one, FURTHER, gates.GATE) for one in one_each):
         trusted = found.stated[0] > _TRUSTED or found.noise_scale > LOUD
         fits += several(study, singles, causes, trusted, begun)
-    others = model.problem.frf or model.problem.recordings  # which may feel what modes do not
     if kind is Model and not others and any(one.nameless for one in fits) and not any(map(_simple, fits)):
         fits += joint_rivals(model, fits)
     kept = _once(fits if others else plainest(fits))
