@@ -233,7 +233,7 @@ def begin(hypothesis: Hypothesis, x: np.ndarray, data: list[Segments], looks: li
     at = [part.starts - REACH for part in data]
     pairs = list(zip(looks, at, strict=True))
     states = np.concatenate([look.states(own) for look, own in pairs], axis=1)
-    place = _unseen_place(hypothesis.linear, data[0].series, states)
+    place = _misplaced(hypothesis.linear, data, states)
     states[: len(place)] -= place
     internal = []
     for one in hypothesis.acting(x):
@@ -242,15 +242,21 @@ def begin(hypothesis: Hypothesis, x: np.ndarray, data: list[Segments], looks: li
     return states, internal or None
 
 
-def _unseen_place(linear: Linear, series: Series, states: np.ndarray) -> np.ndarray:
-    """Displacements (n, G) in states (2n, G) along what nothing holds, where no channel shows them: twice summed noise, that no
-    fit has a reason to keep and its prior would count. Sliders of laws move along.
+def _misplaced(linear: Linear, data: list[Segments], states: np.ndarray) -> np.ndarray:
+    """Displacements (n, G) in states (2n, G) along what nothing holds, by which they are not where channels of place show it.
+
+    Spectra are about the mean of a record. Where no such channel is, all of it: twice summed noise, that no fit has a reason to keep
+    and its prior would count. Sliders of laws move along.
     """
-    x = states[: len(linear.M)]
-    if not series.slow or (series.order == 0).any():
+    x, series = states[: len(linear.M)], data[0].series
+    if not series.slow:
         return np.zeros_like(x)
-    R = rigid(linear.K, linear.M, series.slow * series.dt)
-    return R @ (R.T @ linear.M @ x)
+    R, placed = rigid(linear.K, linear.M, series.slow * series.dt), series.order == 0
+    if not placed.any():
+        return R @ (R.T @ linear.M @ x)
+    sensing = series.sensing[placed]
+    shown = np.hstack([part.series.measured[part.starts - REACH].T for part in data])[placed]
+    return R @ np.linalg.lstsq(sensing @ R, sensing @ x - shown, rcond=None)[0]
 
 
 def _own(study: Study, data: Segments) -> Series | None:
