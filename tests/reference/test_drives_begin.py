@@ -15,7 +15,9 @@ from mouse_cli.cli.main import cli
 from mouse_cli.diagnosis.likelihoods.history.order import begun_again, from_mean
 from mouse_cli.terms.laws import registry
 from mouse_cli.updating.recordings.polish import Polish
-from mouse_cli.updating.recordings.records import records
+from mouse_cli.updating.recordings.records import records, reduced
+from mouse_cli.updating.recordings.segments import segments
+from mouse_cli.updating.recordings.series import REACH
 from mouse_cli.updating.recordings.study import begin, fitted, study
 
 
@@ -36,6 +38,30 @@ def test_no_stretch_begins_at_a_place_that_its_prior_does_not_know(tmp_path):
     assert (np.abs(states) < 5 * look.spread[:, None]).all()
     kept = states[1] - states[0] - (look.states(own.data[0].starts - 12)[1] - look.states(own.data[0].starts - 12)[0])
     assert np.abs(kept).max() < 1e-9
+
+
+def test_stretches_begin_where_channels_of_place_show_a_mass(tmp_path):
+    """Also that of the end of a record, 2 m from its beginning: a stretch at rest stayed at the mean of what is held out."""
+    case = cases(210105, 8, 0)[7]  # positions of one mass
+    problem = mouse_cli.read_deck(str(write(tmp_path, case)))
+    own = study(problem, records(problem))
+    (held,) = own.records.held
+    stretches = segments(reduced(held, own.model), own.length, 12)
+    look = own.at(own.places[0], stretches.series)
+    states, _ = begin(own.base, np.zeros(len(own.base.mean)), [stretches], [look])
+    assert abs(held.measured.mean()) > 1
+    np.testing.assert_allclose(states[0], held.measured[stretches.starts - REACH, 0], atol=1e-5)
+
+
+def test_accelerations_that_do_not_begin_at_rest_tell_of_speeds_to_and_fro(tmp_path):
+    """The speed was off by 0.27 m/s of an rms of 0.17, and friction had the wrong sign in the first look."""
+    case = cases(210105, 18, 0)[17]
+    problem = mouse_cli.read_deck(str(write(tmp_path, case)))
+    own = study(problem, records(problem))
+    place = next(one for one in own.places if one.site.ids == ("2TX",))
+    at = own.at(place)
+    assert not own.look.at_rest and abs(at.local.v.mean()) < 0.05 * at.local.v.std()
+    assert np.exp(at.best(registry()["coulomb"], 0).x[-1]) == pytest.approx(case.drive.friction, rel=0.3)
 
 
 def test_a_law_is_begun_with_all_nuisances_at_their_mean_where_that_costs_less(tmp_path):

@@ -185,19 +185,19 @@ class Spectrum:
     def with_speed(self, states: np.ndarray) -> np.ndarray:
         """States (2n, t) with the constant speed that no line of the spectrum shows, where no displacement does.
 
-        Velocities have it on average; what accelerations tell of begins at rest.
+        Velocities have it on average; what accelerations tell of begins at rest, or is at the end about where it was at the beginning.
         """
         series = self.series
         if not series.slow or (series.order == 0).any():
             return states
         x, v = np.split(states, 2)
         own = series.order == 1
+        R = rigid(self.linear.K, self.linear.M, series.slow * series.dt)
         if own.any():
-            R = rigid(self.linear.K, self.linear.M, series.slow * series.dt)
             short = (series.measured[:, own].T - series.sensing[own] @ v).mean(axis=1)
             more = R @ np.linalg.lstsq(series.sensing[own] @ R, short, rcond=None)[0]
         else:
-            more = -v[:, 0] * series.at_rest
+            more = -v[:, 0] if series.at_rest else -R @ (R.T @ self.linear.M @ v.mean(axis=1))
         t = series.dt * np.arange(len(series))
         return np.concatenate([x + more[:, None] * t, v + more[:, None]])
 
