@@ -40,14 +40,19 @@ def support_sets(mesh: Mesh, held: Sequence[Held], size: np.ndarray) -> tuple[li
 
 
 def _rows(mesh: Mesh, held: Sequence[Held], own: Sequence[int]) -> list[list[int]]:
-    """Of supports `own` of one direction those, two or more, that share a coordinate with one another and not with all."""
-    at, found = mesh.coordinates[[held[i][0] for i in own]], set()
+    """Of supports `own` of one direction those of each row."""
     near = _ONE_ROW * float(np.ptp(mesh.coordinates, axis=0).max())
-    for along in at.T:
+    return [[own[i] for i in row] for row in in_rows(mesh.coordinates[[held[i][0] for i in own]], near)]
+
+
+def in_rows(x: np.ndarray, near: float) -> list[list[int]]:
+    """Which of places x (k, 3), two or more, share a coordinate with one another, to `near`, and not with all."""
+    found = set()
+    for along in x.T:
         order = np.argsort(along, kind="stable")
         for row in np.split(order, np.flatnonzero(np.diff(along[order]) > near) + 1):
-            if 1 < len(row) < len(own):
-                found.add(tuple(sorted(own[i] for i in row)))
+            if 1 < len(row) < len(x):
+                found.add(tuple(sorted(row.tolist())))
     return [list(row) for row in sorted(found)]
 
 

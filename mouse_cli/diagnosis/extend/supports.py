@@ -1,4 +1,4 @@
-"""The deck with one named support of imported matrices on springs: it moves as the columns of a pattern say."""
+"""The deck with named supports of imported matrices on springs: they move as the columns of a pattern say."""
 
 from dataclasses import replace
 
@@ -10,25 +10,31 @@ from mouse_cli.diagnosis.extend.renumbered import moved, moved_functions
 from mouse_cli.model.arrays import Matrix, is_sparse, upper_triangle
 from mouse_cli.model.held import ElementGroup, Held, applied, freed, places
 from mouse_cli.model.problem import Problem
-from mouse_cli.model.revision import ON_SPRINGS
 from mouse_cli.model.structure import ListedElements
 
 
 def with_motions(
-    problem: Problem, name: str, pattern: np.ndarray, labels: tuple[str, ...], bed: np.ndarray, k: float, unit: str
+    problem: Problem,
+    names: tuple[str, ...],
+    pattern: np.ndarray,
+    labels: tuple[str, ...],
+    stiffnesses: dict[str, tuple[np.ndarray, float]],
+    unit: str,
 ) -> Problem:
-    """u_s = P q for the support called `name`, pattern P (k, a) and motions q, with springs k times bed (a, a) against them.
+    """u_s = P q for the supports called `names`, pattern P (k, a) and motions q, with springs k times bed (a, a) against them, of
+    which `stiffnesses` has each bed and k, by the names of their parameters.
 
     A motion of one degree of freedom alone is that degree of freedom, under its own name.
     """
     whole, to = freed(problem), places(problem)
     n, a = whole.structure.n, pattern.shape[1]
-    s = next(each.dofs for each in problem.held.supports if each.name == name)
+    by_name = {each.name: each for each in problem.held.supports}
+    s = np.concatenate([by_name[name].dofs for name in names])
     rest = np.setdiff1d(np.arange(n), s)
     T, number = _followed(n, rest, s, pattern), np.full(n, -1)
     number[rest] = np.arange(len(rest))
-    structure = _structure(whole, T, rest, _called(whole, s, pattern, tuple(f"{name} {label}" for label in labels)))
-    supports = tuple(replace(each, dofs=number[each.dofs]) for each in problem.held.supports if each.name != name)
+    structure = _structure(whole, T, rest, _called(whole, s, pattern, labels))
+    supports = tuple(replace(each, dofs=number[each.dofs]) for each in problem.held.supports if each.name not in names)
     others = np.concatenate([each.dofs for each in supports]) if supports else np.zeros(0, int)
     kept = np.setdiff1d(np.arange(structure.n), others)
     elements, A = _listed(whole, T, structure.n)
@@ -51,8 +57,9 @@ def with_motions(
     )
     row, col = np.triu_indices(a)
     at = place[len(rest) + np.arange(a)]
-    parameter = found(ON_SPRINGS.format(name), k, unit)
-    return with_entries(deck, parameter, K=(at[row], at[col], bed[row, col]))
+    for name, (bed, k) in stiffnesses.items():
+        deck = with_entries(deck, found(name, k, unit), K=(at[row], at[col], bed[row, col]))
+    return deck
 
 
 def _followed(n: int, rest: np.ndarray, s: np.ndarray, pattern: np.ndarray) -> Matrix:

@@ -11,8 +11,9 @@ CANDIDATE = Candidate(
     "a translationally flexible support",
     "support",
     "what the model holds rigidly moves along the direction of a reaction (soil, bearing, test stand), at one support along one "
-    "axis or several, at a row or all alike, or at any of few along one axis or two, each with a stiffness of its own; of a named "
-    "support of matrices also a few nodes side by side: bolts that are loose",
+    "axis or several, at a row or all alike, or at any of few along one axis or two, each with a stiffness of its own; of named "
+    "supports of matrices, one, a row, any of few or all alike, in all directions with one stiffness, across their plane and in it "
+    "with two (rubber), or in one of both (sliding); and a few nodes of one, side by side: bolts that are loose",
     partial(yielding, turning=False),
     supports,
 )

@@ -185,7 +185,7 @@ class Spectrum:
     def with_speed(self, states: np.ndarray) -> np.ndarray:
         """States (2n, t) with the constant speed that no line of the spectrum shows, where no displacement does.
 
-        Velocities have it on average; what accelerations tell of begins at rest, or is at the end about where it was at the beginning.
+        Velocities have it on average; what accelerations tell of begins at rest, or ends about where it began.
         """
         series = self.series
         if not series.slow or (series.order == 0).any():

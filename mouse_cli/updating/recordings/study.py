@@ -245,8 +245,8 @@ def begin(hypothesis: Hypothesis, x: np.ndarray, data: list[Segments], looks: li
 def _misplaced(linear: Linear, data: list[Segments], states: np.ndarray) -> np.ndarray:
     """Displacements (n, G) in states (2n, G) along what nothing holds, by which they are not where channels of place show it.
 
-    Spectra are about the mean of a record. Where no such channel is, all of it: twice summed noise, that no fit has a reason to keep
-    and its prior would count. Sliders of laws move along.
+    Spectra are about the mean of a record. Where no such channel is, all of it: twice summed noise, that no fit has a reason to
+    keep and its prior would count. Sliders of laws move along.
     """
     x, series = states[: len(linear.M)], data[0].series
     if not series.slow:
