@@ -64,6 +64,15 @@ def test_accelerations_that_do_not_begin_at_rest_tell_of_speeds_to_and_fro(tmp_p
     assert np.exp(at.best(registry()["coulomb"], 0).x[-1]) == pytest.approx(case.drive.friction, rel=0.3)
 
 
+def test_a_stretch_at_rest_does_not_hold_up_the_fit_of_the_others(tmp_path):
+    """Its speed, which it does not feel, took steps of hundreds of prior sd: a stop beside friction was named at > 0.999."""
+    case = cases(210405, 19, 0)[18]
+    problem = mouse_cli.read_deck(str(write(tmp_path, case)))
+    own = study(problem, records(problem))
+    one = fitted(own, own.at(own.places[0]).best(registry()["coulomb"], 0))
+    assert one.misfit < 0.1 * one.dof and np.exp(one.x[-1]) == pytest.approx(case.drive.friction, rel=1e-3)
+
+
 def test_a_law_is_begun_with_all_nuisances_at_their_mean_where_that_costs_less(tmp_path):
     """Friction at the second mass; dampings that act alike stand many sd apart in the first look, and a fit from there ran out of
     steps.

@@ -76,6 +76,8 @@ class Polish:
                 break
             straight = self._step(slopes, at, damping)
             there, promised = self._tried(at, *self._bent(slopes, at, damping, *straight)), self._promised(slopes, at, *straight)
+            if not there.cost <= at.cost and self.simulator.jumps:
+                there = self._each(there, self._tried(at, there.x - at.x, np.zeros_like(at.states)))
             if not there.cost <= at.cost:
                 if promised < self._worth(at):
                     break
@@ -120,6 +122,18 @@ class Polish:
         left = self.simulator.left(x, states)
         cost = self._cost(left, x, states)
         return _At(x, states, left, cost if np.isfinite(cost) else np.inf)
+
+    def _each(self, one: _At, other: _At) -> _At:
+        """Of two fits with the same x, each segment as in the one that leaves less there: a mass that sticks does not feel its speed,
+        and a step of it may lead anywhere.
+        """
+        if not np.array_equal(one.x, other.x):
+            return one
+        prior = lambda at: ((at.states / self.spread[:, None]) ** 2).sum(axis=0)
+        costs = [np.nan_to_num((at.left**2).sum(axis=(0, 1)) + prior(at), nan=np.inf) for at in (one, other)]
+        first = costs[0] <= costs[1]
+        states, left = (np.where(first, *pair) for pair in ((one.states, other.states), (one.left, other.left)))
+        return _At(one.x, states, left, self._cost(left, one.x, states))
 
     @staticmethod
     def _worth(at: _At) -> float:
