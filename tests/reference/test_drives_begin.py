@@ -64,6 +64,7 @@ def test_accelerations_that_do_not_begin_at_rest_tell_of_speeds_to_and_fro(tmp_p
     assert np.exp(at.best(registry()["coulomb"], 0).x[-1]) == pytest.approx(case.drive.friction, rel=0.3)
 
 
+@pytest.mark.proof
 def test_a_stretch_at_rest_does_not_hold_up_the_fit_of_the_others(tmp_path):
     """Its speed, which it does not feel, took steps of hundreds of prior sd: a stop beside friction was named at > 0.999."""
     case = cases(210405, 19, 0)[18]

@@ -124,8 +124,9 @@ class Polish:
         return _At(x, states, left, cost if np.isfinite(cost) else np.inf)
 
     def _each(self, one: _At, other: _At) -> _At:
-        """Of two fits with the same x, each segment as in the one that leaves less there: a mass that sticks does not feel its speed,
-        and a step of it may lead anywhere.
+        """Of two fits with the same x, each segment as in the one that leaves less there.
+
+        A mass that sticks does not feel its speed, and a step of it may lead anywhere.
         """
         if not np.array_equal(one.x, other.x):
             return one
