@@ -16,7 +16,7 @@ from mouse_cli.model.geometry import DIRECTIONS, rigid_motions
 from mouse_cli.model.groups import enumerated
 from mouse_cli.model.held import Support
 
-_ALL = "all directions"
+_ALL, _ALONG, _ACROSS = "all directions", "along ", "across "
 _FLEXIBLE = 48  # degrees of freedom up to which supports follow the structure as they deform
 _NODES, _ADJACENT = 24, 4  # of a support, parts of which may be loose; nodes that are loose together, less than half of them
 _POINT = 1e-9  # of the size of the structure: extent of a support that cannot turn about itself
@@ -85,7 +85,7 @@ def kinds(free: Free, supports: tuple[Support, ...], turning: bool) -> list[list
     if not whole:
         return [single] if single else []
     across = _across(free, supports)
-    apart = [two for each in whole for two in _apart(free, each, across)]
+    apart = [part for each in whole for part in _apart(free, each, across) if part.across or not part.words.startswith(_ALONG)]
     return [kind for kind in (single, whole, apart, _alike(free, rigid, across)) if kind]
 
 
@@ -94,8 +94,10 @@ def _across(free: Free, supports: tuple[Support, ...]) -> int | None:
     at = free.problem.structure.geometry
     if at is None:
         return None
-    nodes = at.node[np.concatenate([each.dofs for each in supports])]
-    thick = np.ptp(at.coordinates[np.unique(nodes[nodes >= 0])], axis=0)
+    nodes = np.concatenate([_nodes(free, each) for each in supports])
+    if not len(nodes):
+        return None
+    thick = np.ptp(at.coordinates[nodes], axis=0)
     flat = np.flatnonzero(thick <= _PLANE * np.ptp(at.coordinates, axis=0).max())
     return int(flat[0]) if len(flat) == 1 else None
 
@@ -110,8 +112,8 @@ def _apart(free: Free, whole: Motions, across: int | None) -> list[Motions]:
     springs = tuple(np.where(which, whole.springs[0], 0.0) for which in both)
     if not all(each.any() for each in springs):
         return []
-    found = [replace(whole, springs=springs, words=f"along {along} and across it{rest}", across=along)]
-    for which, words in zip(both, (f"along {along}", f"across {along}"), strict=True):
+    found = [replace(whole, springs=springs, words=f"{_ALONG}{along} and across it{rest}", across=along)]
+    for which, words in zip(both, (_ALONG + along, _ACROSS + along), strict=True):
         free_to = np.flatnonzero(~np.where(which, 0.0, whole.pattern).any(axis=0))
         labels, parts = tuple(whole.labels[i] for i in free_to), [each[:, free_to] for each in (whole.pattern, *whole.springs)]
         found += [replace(whole, pattern=parts[0], labels=labels, springs=(parts[1],), words=words + rest)] if len(free_to) else []
@@ -121,20 +123,20 @@ def _apart(free: Free, whole: Motions, across: int | None) -> list[Motions]:
 def _alike(free: Free, rigid: list[tuple[Support, np.ndarray]], across: int | None) -> list[Motions]:
     """Supports that hold the same directions, each on springs of the same stiffnesses: all, those of a row, and any of few."""
     at, by, found = free.problem.structure.geometry, {}, []
-    for support, pattern in rigid if at is not None else ():
+    for support, pattern in (each for each in rigid if each[1].any()):
         by.setdefault(tuple(pattern[:, :3].any(axis=0)), []).append((support, pattern))
     near = 0.0 if at is None else _PLANE * float(np.ptp(at.coordinates, axis=0).max())
     for own in by.values():
         if not 1 < len(own) <= TOGETHER:
             continue
-        centres = np.array([at.coordinates[np.unique(at.node[each.dofs])].mean(axis=0) for each, _ in own])
+        centres = np.array([at.coordinates[_nodes(free, each)].mean(axis=0) for each, _ in own])
         rows = [tuple(range(len(own))), *map(tuple, in_rows(centres, near))]
         some = [each for n in range(2, len(own)) for each in combinations(range(len(own)), n)] if len(own) <= _FEW else []
         for which in dict.fromkeys([*rows, *some]):
             flexible = sum(len(own[i][0].dofs) for i in which) <= _FLEXIBLE
             each = [m for i in which for m in _whole(*own[i], flexible)]
             if len(each) == len(which):
-                found.append(one := _joined(each, len(which) == len(own)))
+                found.append(one := _joined(each, len(which) == len(rigid)))
                 found += _apart(free, one, across) if which in rows else []
     return found
 
@@ -155,10 +157,16 @@ def _rigid(free: Free, support: Support) -> tuple[Support, np.ndarray]:
     if at is None or not (own := at.node[support.dofs] >= 0).any():
         return support, pattern
     x = at.coordinates[at.node[support.dofs[own]]]
-    centre = at.coordinates[np.unique(at.node[support.dofs[own]])].mean(axis=0)
+    centre = at.coordinates[_nodes(free, support)].mean(axis=0)
     size = float(np.ptp(at.coordinates, axis=0).max())
     pattern[own] = rigid_motions(x - centre, at.direction[support.dofs[own]], _POINT * size)
     return support, pattern
+
+
+def _nodes(free: Free, support: Support) -> np.ndarray:
+    """Nodes of a support, none twice."""
+    own = free.problem.structure.geometry.node[support.dofs]
+    return np.unique(own[own >= 0])
 
 
 def _single(support: Support, pattern: np.ndarray, directions: range) -> list[Motions]:
