@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from benchmarks.blind.imported.__main__ import MODES, delivered, visible
-from benchmarks.blind.imported.parts import Concealed
+from benchmarks.blind.imported.parts import Concealed, cards
 from benchmarks.blind.imported.scoring import ALARM, CLEAN, NAMED, OPEN, WRONG, outcome
 from benchmarks.blind.imported.structures import STRUCTURES
 from benchmarks.blind.imported.trip import predicted
@@ -74,6 +74,9 @@ def test_a_heavy_mass_on_a_thin_wall_is_looked_at_though_one_mode_hardly_moves_t
         ("missing", "RIB_1", "named", "element set RIB_2", WRONG),
         ("loose", "BOLT_1", "named", "the support BOLT_1, all directions", NAMED),
         ("loose", "BOLT_1", "named", "the support BOLT_10, TZ", WRONG),
+        ("two", "BOLT_1 and BOLT_3", "named", "the supports BOLT_1 and BOLT_3, all directions, alike", NAMED),
+        ("two", "BOLT_1 and BOLT_3", "named", "the support BOLT_1, all directions", WRONG),
+        ("rubber", "all supports", "named", "all supports, along TZ and across it, alike", NAMED),
         ("softer", "RIB_1", "unknown", "element set RIB_1", OPEN),
         ("control", "", "named", "element set RIB_1", ALARM),
         ("control", "", "nothing-missing", "", CLEAN),
@@ -83,3 +86,12 @@ def test_an_answer_is_right_only_with_the_name_of_what_was_changed(kind, name, s
     mesh = STRUCTURES["box"].build(np.random.default_rng(0))
     document = {"verdict": {"kind": said, "sites": [{"text": text, "position": None}] if text else []}}
     assert outcome(Concealed(kind, name), document, mesh)[0] == result
+
+
+def test_feet_stand_on_springs_at_each_node_or_on_nothing():
+    mesh = STRUCTURES["box"].build(np.random.default_rng(0))
+    rubber = cards(mesh, Concealed("rubber", "all supports", 8e5, {}, 0.25))
+    assert "*BOUNDARY" not in rubber and rubber.count("*SPRING") == 12
+    assert rubber.count(f"\n1\n{5e4:.9e}\n") == 4 and rubber.count(f"\n3\n{2e5:.9e}\n") == 4  # four nodes a bolt
+    two = cards(mesh, Concealed("two", "BOLT_1 and BOLT_3"))
+    assert "*SPRING" not in two and two.count("*BOUNDARY") == 2

@@ -17,12 +17,13 @@ from benchmarks.blind.imported.scoring import NAMED, OPEN, UNSEEN, outcome
 from benchmarks.blind.imported.structures import STRUCTURES
 from benchmarks.blind.imported.trip import predicted
 
-KINDS = ("control", "missing", "softer", "material", "heavier", "loose", "mass", "weld", "thinner")
+KINDS = ("control", "missing", "softer", "material", "heavier", "loose", "mass", "weld", "thinner", "rubber", "two")
 MODES, FREQUENCY_SD, SHAPE_SD = 8, 0.001, 0.01  # fitted; of each frequency; of the largest component of a mode
 _VISIBLE = 9.0  # noncentrality, three standard deviations in all, below which no answer but an open one can be had
 _SIZES = {  # factors
     "softer": (0.3, 0.7), "heavier": (1.6, 3.0), "material": (0.0, 0.0), "weld": (0.02, 0.2), "thinner": (0.5, 0.75),
 }  # fmt: skip
+_FEET = 4  # supports of which two may be loose, at least
 _E_SD = 0.02  # of the true moduli, which the deck holds known to 5 %
 
 
@@ -34,7 +35,7 @@ def changes(name: str, mesh: Mesh, rng: np.random.Generator) -> Iterator[Conceal
         of = STRUCTURES[name].of(kind)
         if kind == "control":
             yield Concealed(E=E)
-        elif not of:
+        elif not of or (kind == "two" and len(mesh.supports) < _FEET):
             continue
         elif kind == "missing":
             yield Concealed(kind, pick(of), E=E)
@@ -42,6 +43,11 @@ def changes(name: str, mesh: Mesh, rng: np.random.Generator) -> Iterator[Conceal
             yield Concealed(
                 kind, pick(tuple(mesh.supports)), float(rng.choice([0.0, 1.0])) * 10 ** rng.uniform(5, 6), E
             )
+        elif kind == "rubber":
+            yield Concealed(kind, "all supports", 10 ** rng.uniform(5, 6.5), E, float(rng.uniform(0.15, 0.4)))
+        elif kind == "two":
+            some = sorted(rng.choice(len(mesh.supports), 2, replace=False))
+            yield Concealed(kind, " and ".join(list(mesh.supports)[i] for i in some), 0.0, E)
         elif kind == "mass":
             yield Concealed(kind, str(pick(mesh.sensors)[0]), float(rng.uniform(0.03, 0.1)) * mass(mesh), E)
         else:

@@ -1,6 +1,7 @@
 """Meshes of shells and solids as cards, in named sets; and what is changed in them."""
 
 from dataclasses import dataclass, field
+from itertools import count as counted
 from itertools import pairwise
 
 import numpy as np
@@ -62,13 +63,20 @@ class Mesh:
 class Concealed:
     """What is changed in the solver's input: kind, and the set, support or node that it is of; size: of the change.
 
-    E, rho (by material): factors of the true structure, which the model does not know.
+    E, rho (by material): factors of the true structure, which the model does not know. shear: of what supports stand on, its
+    stiffness in their plane, over that across it.
     """
 
     kind: str = "control"
     name: str = ""
     size: float = 0.0
     E: dict[str, float] = field(default_factory=dict)
+    shear: float = 1.0
+
+    def holds(self, support: str) -> bool:
+        """Whether a support is as the model has it."""
+        loose = {"loose": (self.name,), "two": self.name.split(" and "), "rubber": (support,)}.get(self.kind, ())
+        return support not in loose
 
 
 def cards(mesh: Mesh, change: Concealed, modes: int = 0) -> str:
@@ -132,13 +140,14 @@ def _section(name: str, kind: str, material: str, thickness: float, change: Conc
 
 
 def _held(mesh: Mesh, change: Concealed, first: int) -> list[str]:
-    lines = []
-    for name, nodes in mesh.supports.items():
-        if change.kind == "loose" and change.name == name:
-            for d in (1, 2, 3) if change.size else ():
-                lines.append(f"*ELEMENT, TYPE=SPRING1, ELSET=LOOSE{d}")
-                lines += [f"{first + 1000 * d + i}, {n}" for i, n in enumerate(nodes)]
-                lines += [f"*SPRING, ELSET=LOOSE{d}", f"{d}", f"{change.size / len(nodes):.9e}"]
+    lines, number = [], counted(first)
+    for i, (name, nodes) in enumerate(mesh.supports.items()):
+        if change.holds(name):
+            lines += ["*BOUNDARY", f"{name}, 1, 3"]
             continue
-        lines += ["*BOUNDARY", f"{name}, 1, 3"]
+        for d, k in zip((1, 2, 3), change.size * np.array([change.shear, change.shear, 1.0]), strict=True):
+            if k:
+                lines.append(f"*ELEMENT, TYPE=SPRING1, ELSET=LOOSE{i}_{d}")
+                lines += [f"{next(number)}, {n}" for n in nodes]
+                lines += [f"*SPRING, ELSET=LOOSE{i}_{d}", f"{d}", f"{k / len(nodes):.9e}"]
     return lines

@@ -24,8 +24,9 @@ def outcome(change: Concealed, document: dict, mesh: Mesh) -> tuple[str, str]:
 
 
 def _right(change: Concealed, site: dict, mesh: Mesh) -> bool:
-    if change.kind == "loose":
-        return site["text"].startswith(f"the support {change.name},")
+    supports = {"loose": f"the support {change.name},", "two": f"the supports {change.name},", "rubber": "all supports,"}
+    if change.kind in supports:
+        return site["text"].startswith(supports[change.kind])
     if change.kind != "mass":
         return site["text"] == f"element set {change.name}"
     at = {n: np.array(place) for place, n in mesh.number.items()}
