@@ -161,8 +161,18 @@ def _springs(problem: Problem, members: ElementSet, values: dict, notes: dict) -
             ends = tuple(_end(problem, int(node), direction) for node in members.nodes[e])
             if k and None not in ends:
                 note = "; ".join(notes.get(direction, ["as in the deck"]))
+                note += _instead(ends, note)
                 number = int(members.ids[e]) if single else None
                 yield RevisedSpring(f"SPRING_{members.ids[e]}_{direction}", ends, float(k), note, number)
+
+
+def _instead(ends: tuple[End, ...], note: str) -> str:
+    """What to do about a support that a spring to the ground stands in place of, by the note on it; empty for other springs."""
+    if len(ends) > 1 or not note.startswith(ON_SPRINGS.partition("{}")[0]):
+        return ""
+    ((node, direction),) = ends
+    held = f"{node}{DIRECTIONS[direction - 1]}"
+    return f"; where the model holds {held}, take that out of its supports, beside which a spring does nothing"
 
 
 def _masses(problem: Problem, members: ElementSet, values: dict, notes: dict) -> Iterator[RevisedMass]:

@@ -258,6 +258,14 @@ def test_the_cards_of_a_structure(program, tmp_path):
     assert "k: prior 15000 N/m, sd 1.5e+03" in text and "posterior" not in text  # nothing was revised
 
 
+def test_what_stands_in_place_of_a_support_says_so(tmp_path):
+    """A spring at what the model goes on to hold does nothing."""
+    for name in ("k", "stiffness of the support of node 5, TZ"):
+        (tmp_path / "deck.yaml").write_text(BEAM.replace("{name: k,", f"{{name: '{name}',"))
+        assert mouse("export", str(tmp_path / "deck.yaml"), "--for", "nastran", "-o", str(tmp_path / "cards.txt")) == 0
+        assert ("where the model holds 5TZ" in (tmp_path / "cards.txt").read_text()) == (name != "k")
+
+
 def test_shapes_for_other_programs(tmp_path):
     """What is written is read back by mouse's reader of data sets 55 and by pyuff; the file for VTK has a vector at each node."""
     (tmp_path / "deck.yaml").write_text(BEAM)
