@@ -139,7 +139,7 @@ def _nodes(model: InputModel, word: str) -> list[int]:
 
 def _added(model: InputModel, problem: Problem, revision: Revision, inertia: bool) -> tuple[list[str], set[int]]:
     """Supports as they are now, where they are other than in the job, springs and masses that are new; nodes of these supports."""
-    tied = {part.name: part for part in revision.supports}
+    tied = {own.name: [part for part in revision.supports if part.name == own.name] for own in revision.supports}
     free, lines = set(problem.structure.labels), []
     first, springs, released = max(model.nodes) + 1, list(revision.springs), set()
     for support in model.supports:
@@ -149,7 +149,7 @@ def _added(model: InputModel, problem: Problem, revision: Revision, inertia: boo
             released |= moved
             springs += own
             lines += more
-            first += len(tied[support.name].directions)
+            first += len(tied[support.name][0].directions)
     nodes = {n for n, _ in released}
     if nodes & model.turned.keys():
         message = f"node {min(nodes & model.turned.keys())} has directions of *TRANSFORM, and its support is revised"
@@ -162,23 +162,27 @@ def _added(model: InputModel, problem: Problem, revision: Revision, inertia: boo
     return [*lines, *points, *boundary], nodes
 
 
-def _rigid(model: InputModel, dofs: list[tuple[int, int]], support: RevisedSupport, first: int):
+def _rigid(model: InputModel, dofs: list[tuple[int, int]], own: list[RevisedSupport], first: int):
     """A support as a rigid body: what of it is moved, its springs, and a node for each motion with equations that follow it.
 
-    Springs of equal stiffness at every degree of freedom: together `stiffness` against the one motion, or in one translation.
+    Springs of equal stiffness at every degree of freedom along some directions: together `stiffness` against the one motion, or in
+    one translation; own: of each stiffness.
     """
     at, d = np.array([model.nodes[n] for n, _ in dofs]), np.array([d for _, d in dofs]) - 1
     centre = np.mean([model.nodes[n] for n in dict.fromkeys(n for n, _ in dofs)], axis=0)
     size = float(np.ptp(np.array(list(model.nodes.values())), axis=0).max())
-    pattern = rigid_motions(at - centre, d, _POINT * size)[:, [k - 1 for k in support.directions]]
+    pattern = rigid_motions(at - centre, d, _POINT * size)[:, [k - 1 for k in own[0].directions]]
     place = ", ".join(map(real, centre.tolist()))
     lines = ["*NODE", *(f"{first + k}, {place}" for k in range(pattern.shape[1]))]
     moved = [i for i in range(len(dofs)) if pattern[i].any()]
     for i in moved:
-        own = np.flatnonzero(pattern[i])
-        terms = (f", {first + k}, 1, {real(-float(pattern[i, k]))}" for k in own.tolist())
-        lines += ["*EQUATION", str(1 + len(own)), f"{dofs[i][0]}, {dofs[i][1]}, 1.0{''.join(terms)}"]
-    one = pattern.shape[1] == 1
-    share = support.stiffness / float(pattern[:, 0] @ pattern[:, 0] if one else np.count_nonzero(pattern[:, 0]))
-    springs = [RevisedSpring(f"{support.name} {i}", (dofs[k],), share, support.note) for i, k in enumerate(moved, 1)]
+        by = np.flatnonzero(pattern[i])
+        terms = (f", {first + k}, 1, {real(-float(pattern[i, k]))}" for k in by.tolist())
+        lines += ["*EQUATION", str(1 + len(by)), f"{dofs[i][0]}, {dofs[i][1]}, 1.0{''.join(terms)}"]
+    one, springs = pattern.shape[1] == 1, []
+    count = float(pattern[:, 0] @ pattern[:, 0] if one else np.count_nonzero(pattern[:, 0]))
+    for part in own:
+        sprung = [i for i in moved if one or d[i] + 1 in part.along]
+        name = part.name + (f" {DIRECTIONS[part.along[0] - 1]}" if len(own) > 1 else "")
+        springs += [RevisedSpring(f"{name} {i}", (dofs[k],), part.stiffness / count, part.note) for i, k in enumerate(sprung, 1)]
     return {dofs[i] for i in moved}, springs, lines

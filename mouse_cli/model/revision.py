@@ -8,7 +8,8 @@ PART_LEFT = "share of element set {} that is left, and of its mass"  # names of 
 MASS_GAINED, MASS_LOST = "share of element set {} in mass, gained", "share of element set {} in mass, lost"
 E_TIMES, DENSITY_TIMES = "E of element set {}, over that of the deck", "density of element set {}, over that of the deck"
 STIFFNESS_LOST, STIFFNESS_GAINED = "share lost by element set {}", "share gained by element set {}"
-ON_SPRINGS = "stiffness of the support {}"
+ON_SPRINGS, ON_ALIKE = "stiffness of the support {}", "stiffness of each of {}"  # one support, or several; with two stiffnesses:
+ALONG, ACROSS = " along ", " across "  # this direction; all others
 E_OF, DENSITY_OF = "E of {}", "density of {}"  # parameters of `mouse import`, by the material
 OF_SPRING = "stiffness of {}"  # a parameter of `mouse import`: the constant of an element set of springs
 THICKNESS, TO_THE_POWER = "thickness of {}", " to the power {}"  # of shells, by their element set
@@ -93,12 +94,13 @@ class RevisedThickness:
 
 @dataclass(frozen=True)
 class RevisedSupport:
-    """A support that moves as a rigid body in `directions` (1 to 6) about its centre, on springs of `stiffness` in all."""
+    """A support that moves as a rigid body in `directions` (1 to 6) about its centre, on springs of `stiffness` `along` some."""
 
     name: str
     directions: tuple[int, ...]
     stiffness: float
     note: str = ""
+    along: tuple[int, ...] = (1, 2, 3)
 
 
 @dataclass(frozen=True)

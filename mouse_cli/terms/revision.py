@@ -10,11 +10,14 @@ from mouse_cli.model.geometry import DIRECTIONS
 from mouse_cli.model.mesh import ElementSet
 from mouse_cli.model.problem import Problem
 from mouse_cli.model.revision import (
+    ACROSS,
+    ALONG,
     DENSITY_TIMES,
     E_TIMES,
     MASS_GAINED,
     MASS_LOST,
     OF_SPRING,
+    ON_ALIKE,
     ON_SPRINGS,
     PART_LEFT,
     STIFFNESS_GAINED,
@@ -38,6 +41,7 @@ Constants = dict[str, tuple[float | None, float | None, float | None]]  # E, nu 
 
 _LABEL = re.compile(r"(\d+)([TR][XYZ])")
 _OF_MATERIAL = re.compile(r"(E|density) of (.+)")
+_SUPPORTS = re.compile(f"(?:{ON_SPRINGS.format('')}|{ON_ALIKE.format('')})(.+?)(?:({ALONG}|{ACROSS})(T[XYZ]))?")
 _OF_SHELLS = re.compile(THICKNESS.format("(.+?)") + f"({TO_THE_POWER.format('.+')})?")
 _EQUAL = 1e-9
 _OF_SETS: dict[str, Callable[[float], dict[str, float]]] = {
@@ -194,8 +198,9 @@ def _of_matrices(made: Revision, problem: Problem, before: Problem, j: int, know
         return _of_material(made, called[1], called[2], problem.prior.mean[j], note, known)
     part = _of_part(problem, name, float(problem.prior.mean[j]), note)
     if part is not None:
-        key = "sets" if isinstance(part, RevisedSet) else "supports"
-        return replace(made, **{key: (*getattr(made, key), part)})
+        return replace(made, sets=(*made.sets, part))
+    if feet := _of_supports(problem, name, float(problem.prior.mean[j]), note):
+        return replace(made, supports=(*made.supports, *feet))
     shells = _OF_SHELLS.fullmatch(name)
     if shells and problem.groups:
         thickness = RevisedThickness(shells[1], float(problem.prior.mean[j]), note)
@@ -217,19 +222,26 @@ def _of_matrices(made: Revision, problem: Problem, before: Problem, j: int, know
     return replace(made, unwritten=(*made.unwritten, note))
 
 
-def _of_part(problem: Problem, name: str, value: float, note: str) -> RevisedSet | RevisedSupport | None:
-    """What a parameter does to a named element set, or to a support that moves as a rigid body."""
+def _of_part(problem: Problem, name: str, value: float, note: str) -> RevisedSet | None:
+    """What a parameter does to a named element set."""
     for group in problem.groups:
         for pattern, change in _OF_SETS.items():
             if name == pattern.format(group.name):
                 return RevisedSet(group.name, **change(value), note=note)
-    before, _, after = ON_SPRINGS.partition("{}")
-    if not name.startswith(before) or not name.endswith(after):
-        return None
-    called = name[len(before) : len(name) - len(after)]
+    return None
+
+
+def _of_supports(problem: Problem, name: str, value: float, note: str) -> tuple[RevisedSupport, ...]:
+    """What a parameter does to supports that move as rigid bodies, one or several alike."""
+    called = _SUPPORTS.fullmatch(name)
+    if not called:
+        return ()
+    own = DIRECTIONS.index(called[3]) + 1 if called[2] else 0
+    along = tuple(d for d in (1, 2, 3) if not own or (d == own) == (called[2] == ALONG))
     labels = set(problem.structure.labels)
-    moved = tuple(i for i, d in enumerate(DIRECTIONS, 1) if f"{called} {d}" in labels)
-    return RevisedSupport(called, moved, value, note) if moved else None
+    of = lambda support: tuple(i for i, d in enumerate(DIRECTIONS, 1) if f"{support} {d}" in labels)
+    moved = {support: of(support) for support in (called[1], *re.split(", | and ", called[1]))}
+    return tuple(RevisedSupport(support, own, value, note, along) for support, own in moved.items() if own)
 
 
 def _of_material(made: Revision, what: str, name: str, value: float, note: str, known: Constants) -> Revision:

@@ -157,6 +157,9 @@ PARTS = {  # mechanism, its site, and how much of it
     "set lighter": ("lighter", "element set B", 0.3),
     "foot loose": ("support-translation", "the support ROOT, all directions", 3e7),
     "foot loose along an axis": ("support-translation", "the support ROOT, TY", 1e6),
+    "foot on rubber": ("support-translation", "the support ROOT, along TX and across it", (3e7, 5e6)),
+    "foot slides": ("support-translation", "the support ROOT, across TX", 5e6),
+    "stiff foot on rubber": ("support-translation", "the support ROOT, along TX and across it", (3e7, 5e6)),
     "foot turns": ("support-rotation", "the support ROOT, RY", 2e4),
     "mass": ("mass", "node 16", 2.0),
 }
@@ -178,18 +181,21 @@ def extended(folder: Path, what: str) -> None:
     (folder / "tested.yaml").write_text(deck + test + f"    shapes:\n{rows}    shape_sd: 2 %\n")
     problem = read_deck(folder / "tested.yaml")
     model = reduced(problem, problem.prior.mean)
-    found = [(each.site(np.array([value])).text, each) for each in model.recipes(registry()[key])]
+    found = [(each.site(np.atleast_1d(value)).text, each) for each in model.recipes(registry()[key])]
     assert site in dict(found), [text for text, _ in found]
     recipe = dict(found)[site]
-    write_deck(recipe.extend(problem, np.array([value])), folder / "extended.yaml")
+    write_deck(recipe.extend(problem, np.atleast_1d(value)), folder / "extended.yaml")
 
 
 @needs_ccx
 @pytest.mark.parametrize("what", PARTS)
-def test_calculix_runs_the_complete_job_with_what_a_diagnosis_added(imported, what):
+def test_calculix_runs_the_complete_job_with_what_a_diagnosis_added(imported, what, monkeypatch):
+    from mouse_cli.diagnosis.effects import support_motions
     from mouse_cli.formats import read_deck
     from mouse_cli.updating import forecast
 
+    if what.startswith("stiff"):
+        monkeypatch.setattr(support_motions, "_FLEXIBLE", 0)  # a foot of many nodes moves as a rigid body
     extended(imported, what)
     words = ["export", "extended.yaml", "--for", "calculix", "--job", "strip.inp", "--complete", "-o", "revised.inp"]
     assert mouse(*words) == 0

@@ -17,7 +17,7 @@ from mouse_cli.diagnosis.extend.supports import with_motions
 from mouse_cli.diagnosis.likelihoods.modal.reduced import Reduced
 from mouse_cli.model.diagnosis import Site
 from mouse_cli.model.groups import enumerated
-from mouse_cli.model.revision import ON_SPRINGS
+from mouse_cli.model.revision import ACROSS, ALONG, ON_ALIKE, ON_SPRINGS
 
 _MOST = 24  # supports
 _STARTS, _APART = 8, 1.6  # stiffnesses to begin from, at least, and how far apart they are, of the logarithm, at most
@@ -109,11 +109,11 @@ def _begun(unknowns: tuple[Unknown, ...]) -> np.ndarray:
 def _parameter(own: Motions, stiffness: str) -> str:
     """What a stiffness is called in a deck."""
     names = [each.name for each in own.supports]
-    of = ON_SPRINGS.format(*names) if len(names) == 1 else f"stiffness of each of {enumerated(names)}"
+    of = (ON_SPRINGS if len(names) == 1 else ON_ALIKE).format(enumerated(names))
     return of + stiffness.partition("support")[2]
 
 
 def _stiffnesses(own: Motions) -> list[str]:
     """What the stiffnesses are called."""
     name = "stiffness of the support" if len(own.supports) == 1 else "stiffness of each support"
-    return [f"{name} along {own.across}", f"{name} across {own.across}"] if own.across else [name]
+    return [f"{name}{which}{own.across}" for which in (ALONG, ACROSS)] if own.across else [name]

@@ -17,7 +17,7 @@ from mouse_cli.model.groups import enumerated
 from mouse_cli.model.held import Support
 
 _ALL, _ALONG, _ACROSS = "all directions", "along ", "across "
-_FLEXIBLE = 48  # degrees of freedom up to which supports follow the structure as they deform
+_FLEXIBLE, _TOGETHER = 48, 128  # degrees of freedom up to which a support, and several, follow the structure as they deform
 _NODES, _ADJACENT = 24, 4  # of a support, parts of which may be loose; nodes that are loose together, less than half of them
 _POINT = 1e-9  # of the size of the structure: extent of a support that cannot turn about itself
 _PLANE = 1e-6  # of the same, by which the nodes of supports of one plane are out of it at most
@@ -133,7 +133,7 @@ def _alike(free: Free, rigid: list[tuple[Support, np.ndarray]], across: int | No
         rows = [tuple(range(len(own))), *map(tuple, in_rows(centres, near))]
         some = [each for n in range(2, len(own)) for each in combinations(range(len(own)), n)] if len(own) <= _FEW else []
         for which in dict.fromkeys([*rows, *some]):
-            flexible = sum(len(own[i][0].dofs) for i in which) <= _FLEXIBLE
+            flexible = sum(len(own[i][0].dofs) for i in which) <= _TOGETHER
             each = [m for i in which for m in _whole(*own[i], flexible)]
             if len(each) == len(which):
                 found.append(one := _joined(each, len(which) == len(rigid)))
