@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from itertools import combinations
 
 import numpy as np
-from scipy.linalg import block_diag
 
 from mouse_cli.diagnosis.effects.released import Free
 from mouse_cli.diagnosis.effects.support_sets import TOGETHER, in_rows
@@ -143,6 +142,8 @@ def _alike(free: Free, rigid: list[tuple[Support, np.ndarray]], across: int | No
 
 def _joined(each: list[Motions], every: bool) -> Motions:
     """Motions of several supports as those of one, whose stiffness each of them has."""
+    from scipy.linalg import block_diag
+
     called = "all supports" if every else f"the supports {enumerated([one.supports[0].name for one in each])}"
     labels = tuple(f"{one.supports[0].name} {label}" for one in each for label in one.labels)
     pattern, springs = (block_diag(*parts) for parts in ([one.pattern for one in each], [one.springs[0] for one in each]))

@@ -8,18 +8,15 @@ from mouse_cli.diagnosis.extend.matrices import with_entries
 from mouse_cli.diagnosis.extend.points import found
 from mouse_cli.diagnosis.extend.renumbered import moved, moved_functions
 from mouse_cli.model.arrays import Matrix, is_sparse, upper_triangle
-from mouse_cli.model.held import ElementGroup, Held, applied, freed, places
+from mouse_cli.model.held import ElementGroup, Held, Support, applied, freed, places
 from mouse_cli.model.problem import Problem
-from mouse_cli.model.structure import ListedElements
+from mouse_cli.model.structure import ListedElements, Structure
+
+_Stiffnesses = dict[str, tuple[np.ndarray, float]]  # bed and k of each, by its name
 
 
 def with_motions(
-    problem: Problem,
-    names: tuple[str, ...],
-    pattern: np.ndarray,
-    labels: tuple[str, ...],
-    stiffnesses: dict[str, tuple[np.ndarray, float]],
-    unit: str,
+    problem: Problem, names: tuple[str, ...], pattern: np.ndarray, labels: tuple[str, ...], stiffnesses: _Stiffnesses, unit: str
 ) -> Problem:
     """u_s = P q for the supports called `names`, pattern P (k, a) and motions q, with springs k times bed (a, a) against them, of
     which `stiffnesses` has each bed and k, by the names of their parameters.
@@ -28,8 +25,7 @@ def with_motions(
     """
     whole, to = freed(problem), places(problem)
     n, a = whole.structure.n, pattern.shape[1]
-    by_name = {each.name: each for each in problem.held.supports}
-    s = np.concatenate([by_name[name].dofs for name in names])
+    s = np.concatenate([each.dofs for name in names for each in problem.held.supports if each.name == name])
     rest = np.setdiff1d(np.arange(n), s)
     T, number = _followed(n, rest, s, pattern), np.full(n, -1)
     number[rest] = np.arange(len(rest))
@@ -48,9 +44,7 @@ def with_motions(
         structure=reduced,
         elements=_some(elements, inside, place),
         A=A[np.flatnonzero(inside)],
-        held=Held(structure, supports, kept, _some(elements, ~inside), A[np.flatnonzero(~inside)])
-        if supports
-        else None,
+        held=_held(structure, supports, kept, _some(elements, ~inside), A[np.flatnonzero(~inside)]),
         groups=tuple(_group(each, T, n) for each in problem.groups),
         test=None if problem.test is None else moved(problem.test, own, reduced.n),
         frf=tuple(moved_functions(each, own, reduced.n) for each in problem.frf),
@@ -60,6 +54,11 @@ def with_motions(
     for name, (bed, k) in stiffnesses.items():
         deck = with_entries(deck, found(name, k, unit), K=(at[row], at[col], bed[row, col]))
     return deck
+
+
+def _held(structure: Structure, supports: tuple[Support, ...], *rest) -> Held | None:
+    """What is still held; None where nothing is."""
+    return Held(structure, supports, *rest) if supports else None
 
 
 def _followed(n: int, rest: np.ndarray, s: np.ndarray, pattern: np.ndarray) -> Matrix:
