@@ -59,7 +59,8 @@ def _mass(model: Reduced, s: int) -> Part:
     """See `Part`; M (e, 12, 12) of what may be missing."""
     elements, found = model.problem.mesh.elements[s], matrices_of(model, s)
     less = matrices_of(model, s, **{_lost(model, s): 0.0}) if elements.type in SLENDER else found
-    return displacements(model.motion, elements.nodes, model.V), found["K"], found["M"] - less["M"]
+    none = np.zeros_like(found["K"])  # of storeys, which only hold
+    return displacements(model.motion, elements.nodes, model.V), found["K"], found.get("M", none) - less.get("M", none)
 
 
 def _recipe(model: Reduced, candidate: Candidate, member: Member, M: np.ndarray, share: float) -> Recipe:
